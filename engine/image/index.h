@@ -1,0 +1,79 @@
+// The searchable collection: immutable sealed segments and one small mutable tail
+// (image search, behind search_arrays.h). Readers take a snapshot and never wait.
+//
+// Shape    segments hold search arrays with the first `index_m` coefficients per channel;
+//          removed pictures are tombstone bits, never a special value.
+// Errors   none at run time.
+// Threads  snapshot() and merge_once() may be called from any thread at any time;
+//          apply() too, but calls of apply() follow one another. A snapshot is immutable
+//          and may be searched from any number of threads. No lock is held while scoring,
+//          while building a segment in merge_once(), or while decoding.
+// Source   sec. 4.3.1, 4.3.2; Figure 4.2.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "engine/core/ids.h"
+#include "engine/image/query.h"
+#include "engine/image/signature.h"
+
+namespace haarmony::image {
+
+struct Record {
+    ImageId id{};
+    Signature signature;
+};
+
+struct IndexOptions {
+    int index_m = 60;        // coefficients per channel that are kept, 1..kMaxCoefficients
+    int tail_capacity = 1024;  // records scanned one by one before they are sealed
+};
+
+struct IndexStats {
+    std::int64_t images = 0;      // live
+    std::int64_t tombstones = 0;  // removed or replaced, still occupying a slot
+    std::int64_t segments = 0;
+    std::int64_t tail = 0;
+    std::int64_t bytes = 0;       // of search arrays, ids, averages and the tail
+};
+
+class IndexSnapshot;
+
+class Index {
+  public:
+    explicit Index(const IndexOptions& options);
+    ~Index();
+    Index(const Index&) = delete;
+    Index& operator=(const Index&) = delete;
+
+    // Adds or replaces (same id) `upserts`, then removes `removals`; unknown ids are no
+    // error. Later entries win over earlier ones with the same id. All of it becomes
+    // visible at once.
+    void apply(std::span<const Record> upserts, std::span<const ImageId> removals);
+
+    // Merges the segments that are due and publishes the result; returns whether there was
+    // anything to merge. Long: meant for a background thread.
+    bool merge_once();
+
+    [[nodiscard]] std::shared_ptr<const IndexSnapshot> snapshot() const;
+    [[nodiscard]] int index_m() const;
+
+  private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+class IndexSnapshot {
+  public:
+    virtual ~IndexSnapshot() = default;
+
+    // The `limit` best matches, exactly, best first, ties to the smaller id. Terms of the
+    // query beyond index_m do not exist in the index: a caller makes the query with
+    // m <= index_m. Requires: limit >= 0.
+    [[nodiscard]] virtual SearchResult search(const Query& query, int limit) const = 0;
+    [[nodiscard]] virtual IndexStats stats() const = 0;
+};
+
+}  // namespace haarmony::image

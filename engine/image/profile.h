@@ -1,0 +1,41 @@
+// How pictures are compared: the choices of section 4.2.2 as one named value.
+//
+// Shape   weights[channel][bin], channels Y, I, Q; bin 0 weighs the average colour.
+// Units   weights are integers in 1/100, so that scores are exact in any order of addition.
+// Source  sec. 4.2.2, 4.3.2, Table 4.1 as restored in ARCHITECTURE.md ("Errata").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/image/signature.h"
+
+namespace haarmony::image {
+
+inline constexpr int kBins = 6;
+
+enum class BinRule {
+    kLog2Plus1,  // min(floor(log2 max(i, j)) + 1, 5): the default
+    kLinear,     // min(max(i, j), 5): the imgSeek family
+    kLiteral,    // min(floor(log2 max(i, j)), 5): as printed in the dissertation
+};
+
+using Weights = std::array<std::array<std::int32_t, kBins>, kChannels>;
+
+struct Profile {
+    std::string name;
+    int m = 60;  // coefficients per channel, 1..kMaxCoefficients
+    BinRule bin_rule = BinRule::kLog2Plus1;
+    Weights weights{};
+};
+
+// The bin of coefficient (row, column). Requires: 0 <= row, column < kSide, not both 0.
+[[nodiscard]] int bin(BinRule rule, int row, int column);
+
+// "painted" (m 60) and "scanned" (m 40), or nothing.
+[[nodiscard]] std::optional<Profile> built_in_profile(std::string_view name);
+
+}  // namespace haarmony::image

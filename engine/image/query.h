@@ -1,0 +1,56 @@
+// A question to the index, and its answer (image search, step 5 of 5):
+//   color_space.h -> haar.h -> signature.h -> search_arrays.h -> [query.h]
+//
+// Scale   a score is equation (4.4) times 100 * 2^24, an exact integer; smaller is better,
+//         ties go to the smaller id. distance() adds the constant that makes it (4.3).
+// Units   distance in the weights' unit; similarity in [0, 1].
+// Source  sec. 4.2.4, 4.3.2.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/ids.h"
+#include "engine/image/profile.h"
+#include "engine/image/signature.h"
+
+namespace haarmony::image {
+
+using Score = std::int64_t;
+
+// One coefficient of the query: which search array and list it reads, and what a match
+// is worth.
+struct QueryTerm {
+    std::uint32_t key = 0;      // (channel * 2 + negative) * kCoefficientCount + index
+    std::int32_t weight = 0;    // in 1/100
+};
+
+struct Query {
+    std::array<std::int32_t, kChannels> average{};         // fixed point, as in Signature
+    std::array<std::int32_t, kChannels> average_weight{};  // w0 in 1/100
+    std::vector<QueryTerm> terms;
+    std::int64_t weight_sum = 0;  // of the terms, in 1/100
+    int m = 0;                    // query and target are both cut to their m largest
+};
+
+// The query that a signature and a profile make, both cut at m. Requires: 1 <= m <= 100.
+[[nodiscard]] Query make_query(const Signature& signature, const Profile& profile, int m);
+
+// Equation (4.3) of a score.
+[[nodiscard]] double distance(const Query& query, Score score);
+// 1 - distance / sum of the weights of the query's coefficients, clipped to [0, 1]; for a
+// query without coefficients 1 where the distance is 0, else 0.
+[[nodiscard]] double similarity(const Query& query, Score score);
+
+struct Match {
+    ImageId id{};
+    Score score = 0;
+    friend bool operator==(const Match&, const Match&) = default;
+};
+
+struct SearchResult {
+    std::vector<Match> matches;  // best first
+    std::int64_t searched = 0;   // live pictures that were compared
+};
+
+}  // namespace haarmony::image

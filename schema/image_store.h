@@ -1,0 +1,158 @@
+// Pictures in the database: rows, thumbnails, tags and the sequence of changes that a
+// running daemon follows.
+//
+// Shape    signatures are bytes that this folder does not understand.
+// Units    sizes in pixels and bytes; mtime in nanoseconds since 1970; sequence numbers
+//          grow with every commit that changes what can be found.
+// Errors   kNotFound for an unknown id; kIo with SQLite's message otherwise (kUnavailable
+//          where the database stays locked beyond the busy timeout).
+// Threads  as Database.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/ids.h"
+#include "engine/core/result.h"
+#include "schema/database.h"
+
+namespace haarmony::schema {
+
+enum class ImageState { kIndexed, kFailed, kDeleted };
+enum class ImageOrigin { kUpload, kFile };
+
+// What the file looked like when it was read; how unchanged files are recognised.
+struct FileStamp {
+    std::int64_t size = 0;
+    std::int64_t mtime_ns = 0;
+    std::string content_hash;  // lower-case hex of SHA-256
+};
+
+struct Thumbnail {
+    std::string media_type;  // "image/jpeg" or "image/webp"
+    std::vector<std::uint8_t> bytes;
+};
+
+struct Image {
+    ImageId id{};
+    ImageState state = ImageState::kIndexed;
+    ImageOrigin origin = ImageOrigin::kUpload;
+    std::string uri;
+    FileStamp stamp;
+    int width = 0;  // after EXIF orientation
+    int height = 0;
+    std::string media_type;          // of the original, e.g. "image/jpeg"
+    std::vector<std::string> tags;   // sorted, each once
+    std::string metadata = "{}";     // a JSON object, stored as it came
+    std::string failure;             // reason, for kFailed
+    bool low_information = false;
+    std::string added_at;            // RFC 3339, UTC
+    std::string updated_at;
+    std::int64_t revision = 0;       // grows with every change of this row: for ETags
+};
+
+// All that one decoded picture leaves behind.
+struct NewImage {
+    ImageOrigin origin = ImageOrigin::kUpload;
+    std::string uri;
+    FileStamp stamp;
+    int width = 0;
+    int height = 0;
+    std::string media_type;
+    std::vector<std::uint8_t> signature;
+    bool low_information = false;
+    Thumbnail thumbnail;
+    std::vector<std::string> tags;
+    std::string metadata = "{}";
+};
+
+// A row as the ingest worker needs it to decide whether a file changed.
+struct KnownFile {
+    ImageId id{};
+    ImageState state = ImageState::kIndexed;
+    FileStamp stamp;
+};
+
+// One step of the change sequence: the picture as it is now, or gone (no signature).
+struct Change {
+    std::int64_t sequence = 0;
+    ImageId id{};
+    std::vector<std::uint8_t> signature;  // empty: not searchable any more
+};
+
+struct ListOptions {
+    int limit = 100;
+    std::optional<ImageId> after;        // only ids above
+    std::vector<std::string> tags;       // all must match
+};
+
+struct Counts {
+    std::int64_t indexed = 0;
+    std::int64_t failed = 0;
+    std::int64_t deleted = 0;
+};
+
+class ImageStore {
+  public:
+    explicit ImageStore(Database& database);
+    ~ImageStore();
+    ImageStore(const ImageStore&) = delete;
+    ImageStore& operator=(const ImageStore&) = delete;
+
+    // Runs `work` in one IMMEDIATE transaction: committed when it succeeds, rolled back
+    // when it fails or throws.
+    [[nodiscard]] Result<void> transaction(const std::function<Result<void>()>& work);
+
+    // Always a new row.
+    [[nodiscard]] Result<ImageId> add(const NewImage& image);
+    // Replaces what the pixels gave (stamp, size, signature, thumbnail, state), keeping
+    // id, uri, tags and metadata; revives a failed or deleted row.
+    [[nodiscard]] Result<void> update(ImageId id, const NewImage& image);
+    // Only the stamp: the content is the same.
+    [[nodiscard]] Result<void> touch(ImageId id, const FileStamp& stamp);
+    // A file that cannot be decoded: an existing row (by uri, of origin kFile) loses its
+    // signature, else a row is made.
+    [[nodiscard]] Result<ImageId> mark_failed(const std::string& uri,
+                                              const FileStamp& stamp,
+                                              const std::string& reason);
+    // An upload's row goes; a file's row stays as kDeleted with its stamp, so that the
+    // next ingest does not bring it back. Unknown or already deleted: kNotFound.
+    [[nodiscard]] Result<void> remove(ImageId id);
+    // The row itself goes (the file is gone).
+    [[nodiscard]] Result<void> purge(ImageId id);
+
+    // Rows that can be seen: not kDeleted, and not kFailed unless get() asks for that id.
+    [[nodiscard]] Result<Image> get(ImageId id);
+    // The same order as `ids`; unknown or deleted ones are left out.
+    [[nodiscard]] Result<std::vector<Image>> get_many(std::span<const ImageId> ids);
+    [[nodiscard]] Result<std::vector<Image>> list(const ListOptions& options);
+    [[nodiscard]] Result<std::vector<std::uint8_t>> signature(ImageId id);
+    [[nodiscard]] Result<Thumbnail> thumbnail(ImageId id);
+
+    [[nodiscard]] Result<std::optional<KnownFile>> known_file(const std::string& uri);
+    // Every file row whose uri starts with `uri_prefix`, deleted and failed ones included.
+    [[nodiscard]] Result<void> for_each_file(
+        const std::string& uri_prefix,
+        const std::function<void(const KnownFile&, const std::string& uri)>& visit);
+
+    [[nodiscard]] Result<Counts> counts();
+
+    // Every searchable picture and the sequence number that the set corresponds to, read
+    // in one transaction.
+    [[nodiscard]] Result<std::int64_t> for_each_signature(
+        const std::function<void(ImageId, std::span<const std::uint8_t>)>& visit);
+    // The changes after `sequence`, oldest first, at most `limit`; a row changed several
+    // times appears once, at its last change.
+    [[nodiscard]] Result<std::vector<Change>> changes_after(std::int64_t sequence, int limit);
+
+  private:
+    struct Statements;
+    Database& database_;
+    std::unique_ptr<Statements> statements_;
+};
+
+}  // namespace haarmony::schema

@@ -1,0 +1,60 @@
+// Which handler answers which address.
+//
+// Answers 404 for an unknown path, 405 with `Allow` for a known path and another method,
+// HEAD by GET without its body, and OPTIONS with `Allow`.
+//
+// Threads  add() before serving; dispatch() from any thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/http/message.h"
+
+namespace haarmony::http {
+
+// Cheap requests never wait behind costly ones: they have a pool each.
+enum class Cost { kCheap, kCostly };
+
+struct RouteOptions {
+    Cost cost = Cost::kCheap;
+    std::uint64_t body_limit = 0;  // bytes; 0: the route takes no body
+    bool open = false;             // needs no key: health, readiness, the static page
+};
+
+struct RouteMatch {
+    const RouteOptions* options = nullptr;  // null: no route, dispatch gives 404 or 405
+};
+
+class Router {
+  public:
+    Router();
+    ~Router();
+    Router(const Router&) = delete;
+    Router& operator=(const Router&) = delete;
+
+    // `pattern` is a path whose segments may be "{name}", e.g. "/images/{id}/thumbnail".
+    // Requires: the same method and pattern are added once.
+    void add(std::string_view method,
+             std::string_view pattern,
+             const RouteOptions& options,
+             Handler handler);
+    // Answers whatever no pattern matches, for GET and HEAD: the static page.
+    void set_fallback(const RouteOptions& options, Handler handler);
+
+    // Before the body is read: how large it may be and which pool it goes to.
+    [[nodiscard]] RouteMatch match(std::string_view method, std::string_view path) const;
+
+    // The whole answer. A handler's std::exception becomes a 500 without its text.
+    [[nodiscard]] Response dispatch(Request& request) const;
+
+  private:
+    struct Node;
+    std::unique_ptr<Node> root_;
+    RouteOptions fallback_options_;
+    Handler fallback_;
+};
+
+}  // namespace haarmony::http
