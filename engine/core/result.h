@@ -15,17 +15,17 @@
 namespace haarmony {
 
 enum class ErrorCode {
-    kInvalidArgument,     // a value outside its documented range
-    kNotFound,            // no such row, file or profile
-    kConflict,            // the state forbids it (already there, built in)
-    kUnsupportedFormat,   // bytes of no format that we read
-    kUndecodable,         // a known format whose bytes are damaged
-    kTooLarge,            // more bytes or pixels than the limit
-    kForbidden,           // refused by configuration
-    kNotADatabase,        // an existing file that is not ours
-    kNewerVersion,        // written by a newer version than this one
-    kUnavailable,         // busy, shutting down, or a peer that does not answer
-    kIo,                  // the operating system said no
+    kInvalidArgument,    // a value outside its documented range
+    kNotFound,           // no such row, file or profile
+    kConflict,           // the state forbids it (already there, built in)
+    kUnsupportedFormat,  // bytes of no format that we read
+    kUndecodable,        // a known format whose bytes are damaged
+    kTooLarge,           // more bytes or pixels than the limit
+    kForbidden,          // refused by configuration
+    kNotADatabase,       // an existing file that is not ours
+    kNewerVersion,       // written by a newer version than this one
+    kUnavailable,        // busy, shutting down, or a peer that does not answer
+    kIo,                 // the operating system said no
 };
 
 // `message` is one line and carries the bad value; `param` names the input it came from,

@@ -17,17 +17,12 @@
 
 #include "engine/core/ids.h"
 #include "engine/image/query.h"
-#include "engine/image/signature.h"
+#include "engine/image/record.h"
 
 namespace haarmony::image {
 
-struct Record {
-    ImageId id{};
-    Signature signature;
-};
-
 struct IndexOptions {
-    int index_m = 60;        // coefficients per channel that are kept, 1..kMaxCoefficients
+    int index_m = 60;  // coefficients per channel that are kept, 1..kMaxCoefficients
     int tail_capacity = 1024;  // records scanned one by one before they are sealed
 };
 
@@ -35,8 +30,8 @@ struct IndexStats {
     std::int64_t images = 0;      // live
     std::int64_t tombstones = 0;  // removed or replaced, still occupying a slot
     std::int64_t segments = 0;
-    std::int64_t tail = 0;
-    std::int64_t bytes = 0;       // of search arrays, ids, averages and the tail
+    std::int64_t tail = 0;   // slots of the tail in use
+    std::int64_t bytes = 0;  // of search arrays, ids, averages and the tail
 };
 
 class IndexSnapshot;

@@ -25,15 +25,22 @@ enum class BinRule {
 
 using Weights = std::array<std::array<std::int32_t, kBins>, kChannels>;
 
+// The largest weight, 10,000.00: 300 matching coefficients stay far inside 64 bits.
+inline constexpr std::int32_t kMaxWeight = 1'000'000;
+
 struct Profile {
     std::string name;
     int m = 60;  // coefficients per channel, 1..kMaxCoefficients
     BinRule bin_rule = BinRule::kLog2Plus1;
-    Weights weights{};
+    Weights weights{};  // each in [0, kMaxWeight]
 };
 
 // The bin of coefficient (row, column). Requires: 0 <= row, column < kSide, not both 0.
 [[nodiscard]] int bin(BinRule rule, int row, int column);
+
+// "log2_plus_1", "linear" or "literal".
+[[nodiscard]] std::string_view bin_rule_name(BinRule rule);
+[[nodiscard]] std::optional<BinRule> bin_rule_from_name(std::string_view name);
 
 // "painted" (m 60) and "scanned" (m 40), or nothing.
 [[nodiscard]] std::optional<Profile> built_in_profile(std::string_view name);

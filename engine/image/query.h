@@ -7,6 +7,7 @@
 // Source  sec. 4.2.4, 4.3.2.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,11 +19,21 @@ namespace haarmony::image {
 
 using Score = std::int64_t;
 
+// (channel * 2 + negative) * kCoefficientCount + index: the list that a signed index of a
+// channel reads or is put into.
+inline constexpr int kKeyCount = 2 * kChannels * kCoefficientCount;
+[[nodiscard]] constexpr std::uint32_t coefficient_key(int channel, int signed_index) {
+    const bool negative = signed_index < 0;
+    const int index = negative ? -signed_index : signed_index;
+    return static_cast<std::uint32_t>(
+        (channel * 2 + (negative ? 1 : 0)) * kCoefficientCount + index);
+}
+
 // One coefficient of the query: which search array and list it reads, and what a match
 // is worth.
 struct QueryTerm {
-    std::uint32_t key = 0;      // (channel * 2 + negative) * kCoefficientCount + index
-    std::int32_t weight = 0;    // in 1/100
+    std::uint32_t key = 0;    // see coefficient_key()
+    std::int32_t weight = 0;  // in 1/100
 };
 
 struct Query {
@@ -35,6 +46,12 @@ struct Query {
 
 // The query that a signature and a profile make, both cut at m. Requires: 1 <= m <= 100.
 [[nodiscard]] Query make_query(const Signature& signature, const Profile& profile, int m);
+
+// Equation (4.4) of one target; what the search arrays compute for all of them at once.
+// `matched_weight` is the sum of the weights of the terms that the target has.
+[[nodiscard]] Score score(const Query& query,
+                          const std::array<std::int32_t, kChannels>& target_average,
+                          std::int64_t matched_weight);
 
 // Equation (4.3) of a score.
 [[nodiscard]] double distance(const Query& query, Score score);

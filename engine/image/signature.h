@@ -26,10 +26,16 @@ inline constexpr int kMaxCoefficients = 100;
 inline constexpr int kAverageFractionBits = 24;
 inline constexpr std::int64_t kAverageOne = std::int64_t{1} << kAverageFractionBits;
 
+// The wavelet energy (the variance of the 128 x 128 cells, summed over Y, I and Q) below
+// which a picture says too little to call another one its duplicate: a deviation of one
+// level in 255, which is what rounding and compression leave on an empty page.
+inline constexpr double kLowInformationEnergy = 1.0 / (255.0 * 255.0);
+
 struct ChannelSignature {
     std::int32_t average = 0;
     std::uint8_t count = 0;
-    std::array<std::int16_t, kMaxCoefficients> indices{};  // only [0, count) means anything
+    std::array<std::int16_t, kMaxCoefficients>
+        indices{};  // only [0, count) means anything
 
     // The m largest, or all there are. Requires: m >= 0.
     [[nodiscard]] std::span<const std::int16_t> largest(int m) const;

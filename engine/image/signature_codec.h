@@ -6,6 +6,7 @@
 //         or, for a version above ours, kNewerVersion.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,6 +17,16 @@
 #include "engine/image/signature.h"
 
 namespace haarmony::image {
+
+// The rule by which the pixels were won from the picture's file (ingest/decode.h); written
+// into every signature and compared on reading. It rises when that rule changes, because
+// signatures of different rules compare a little worse (about 3 % of the coefficients).
+inline constexpr std::uint8_t kDecodeRule = 1;
+
+// The longest and the shortest signature, in bytes.
+inline constexpr std::size_t kSignatureHeaderBytes = 24;
+inline constexpr std::size_t kMaxSignatureBytes =
+    kSignatureHeaderBytes + std::size_t{2} * kChannels * kMaxCoefficients;
 
 [[nodiscard]] std::vector<std::uint8_t> encode_signature(const Signature& signature);
 [[nodiscard]] Result<Signature> decode_signature(std::span<const std::uint8_t> bytes);
@@ -33,6 +44,8 @@ struct OpenSignature {
     std::array<std::vector<int>, kChannels> coefficients;
 };
 [[nodiscard]] OpenSignature to_open(const Signature& signature);
+// low_information cannot be told from the open form: it is set where no channel has any
+// coefficient.
 [[nodiscard]] Result<Signature> from_open(const OpenSignature& open);
 
 }  // namespace haarmony::image

@@ -1,0 +1,180 @@
+#include "engine/image/resample.h"
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace haarmony::image {
+namespace {
+
+// Lengths are counted in 1/128 of a pixel, so that both the borders of the pixels
+// (multiples of kSide) and of the cells (multiples of the picture's length) are integers.
+constexpr std::uint32_t kPixelLength = kSide;
+
+// The pixels under one cell along one axis: [first, last], all but the ends in full.
+struct Overlap {
+    int first = 0;
+    int last = 0;
+    std::uint32_t first_weight = 0;
+    std::uint32_t last_weight = 0;  // 0 where first == last
+};
+
+Overlap overlap(int cell, int length) {
+    const int pixel = static_cast<int>(kPixelLength);
+    const int begin = cell * length;
+    const int end = begin + length;
+    Overlap result;
+    result.first = begin / pixel;
+    result.last = (end - 1) / pixel;
+    result.first_weight =
+        static_cast<std::uint32_t>(std::min(end, (result.first + 1) * pixel) - begin);
+    if (result.last > result.first) {
+        result.last_weight = static_cast<std::uint32_t>(end - result.last * pixel);
+    }
+    return result;
+}
+
+// Adds weight * row to the running sums of a band. With alpha: premultiplied colours and
+// alpha itself. A band's weights add up to the picture's height, so a sum is at most
+// 255 * 255 * 65535 and fits 32 bits.
+template <int kSamples>
+void add_row(const std::uint8_t* row,
+             int width,
+             std::uint32_t weight,
+             std::uint32_t* sums) {
+    if constexpr (kSamples == 4) {
+        for (int x = 0; x < width; ++x, row += 4, sums += 4) {
+            const std::uint32_t alpha = weight * row[3];
+            sums[0] += alpha * row[0];
+            sums[1] += alpha * row[1];
+            sums[2] += alpha * row[2];
+            sums[3] += alpha;
+        }
+    } else {
+        const int count = width * kSamples;
+        for (int i = 0; i < count; ++i) {
+            // At most 128 * 255: a 16-bit product, which every vector unit has.
+            sums[i] += static_cast<std::uint16_t>(weight * row[i]);
+        }
+    }
+}
+
+// The exact sums of one row of cells.
+template <int kSamples>
+void sum_cells(const std::uint32_t* sums,
+               const std::array<Overlap, kSide>& columns,
+               std::int64_t* cells) {
+    for (const Overlap& column : columns) {
+        const std::uint32_t* pixel = sums + std::size_t(column.first) * kSamples;
+        std::array<std::uint64_t, kSamples> total{};
+        for (int c = 0; c < kSamples; ++c) {
+            total[c] = std::uint64_t{column.first_weight} * pixel[c];
+        }
+        if (column.last > column.first) {
+            std::array<std::uint64_t, kSamples> whole{};
+            for (int x = column.first + 1; x < column.last; ++x) {
+                pixel += kSamples;
+                for (int c = 0; c < kSamples; ++c) whole[c] += pixel[c];
+            }
+            pixel += kSamples;
+            for (int c = 0; c < kSamples; ++c) {
+                total[c] += kPixelLength * whole[c] +
+                            std::uint64_t{column.last_weight} * pixel[c];
+            }
+        }
+        for (int c = 0; c < kSamples; ++c) cells[c] = static_cast<std::int64_t>(total[c]);
+        cells += kSamples;
+    }
+}
+
+// The exact sums of all cells, interleaved as the picture is.
+template <int kSamples>
+std::vector<std::int64_t> sum_all_cells(const ImageView& picture) {
+    std::array<Overlap, kSide> columns;
+    for (int i = 0; i < kSide; ++i) columns[i] = overlap(i, picture.width);
+
+    std::vector<std::int64_t> cells(std::size_t{kCoefficientCount} * kSamples);
+    std::vector<std::uint32_t> sums(std::size_t(picture.width) * kSamples);
+    for (int band = 0; band < kSide; ++band) {
+        const Overlap rows = overlap(band, picture.height);
+        std::fill(sums.begin(), sums.end(), 0U);
+        for (int y = rows.first; y <= rows.last; ++y) {
+            const std::uint32_t weight = y == rows.first  ? rows.first_weight
+                                         : y == rows.last ? rows.last_weight
+                                                          : kPixelLength;
+            add_row<kSamples>(picture.row(y), picture.width, weight, sums.data());
+        }
+        sum_cells<kSamples>(
+            sums.data(), columns, cells.data() + std::size_t(band) * kSide * kSamples);
+    }
+    return cells;
+}
+
+// The area of a cell times the largest sample.
+double full_scale(const ImageView& picture) {
+    return 255.0 * picture.width * picture.height;
+}
+
+void fill_from_grey(const ImageView& picture, ColorPlanes& rgb) {
+    const std::vector<std::int64_t> cells = sum_all_cells<1>(picture);
+    const double scale = full_scale(picture);
+    for (int i = 0; i < kCoefficientCount; ++i) {
+        rgb[0][i] = static_cast<float>(static_cast<double>(cells[i]) / scale);
+    }
+    rgb[1] = rgb[0];
+    rgb[2] = rgb[0];
+}
+
+void fill_from_rgb(const ImageView& picture, ColorPlanes& rgb) {
+    const std::vector<std::int64_t> cells = sum_all_cells<3>(picture);
+    const double scale = full_scale(picture);
+    for (int i = 0; i < kCoefficientCount; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            rgb[c][i] = static_cast<float>(static_cast<double>(cells[3 * i + c]) / scale);
+        }
+    }
+}
+
+void fill_from_rgba(const ImageView& picture, ColorPlanes& rgb) {
+    const std::vector<std::int64_t> cells = sum_all_cells<4>(picture);
+    std::array<std::int64_t, 4> total{};  // at most 255^2 * 65535^2 * 2^14 < 2^63
+    for (std::size_t i = 0; i < cells.size(); ++i) total[i % 4] += cells[i];
+
+    // Quotient and remainder apart: the mean of one colour is that colour exactly.
+    std::array<double, 3> mean{};
+    if (total[3] > 0) {
+        for (int c = 0; c < 3; ++c) {
+            mean[c] =
+                static_cast<double>(total[c] / total[3]) +
+                static_cast<double>(total[c] % total[3]) / static_cast<double>(total[3]);
+        }
+    }
+    const double opaque = full_scale(picture);
+    const double scale = 255.0 * opaque;
+    for (int i = 0; i < kCoefficientCount; ++i) {
+        const double unpainted = opaque - static_cast<double>(cells[4 * i + 3]);
+        for (int c = 0; c < 3; ++c) {
+            const double painted = static_cast<double>(cells[4 * i + c]);
+            rgb[c][i] = static_cast<float>((painted + unpainted * mean[c]) / scale);
+        }
+    }
+}
+
+}  // namespace
+
+void area_average(const ImageView& picture, ColorPlanes& rgb) {
+    assert(picture.pixels != nullptr);
+    assert(picture.width >= 1 && picture.width <= kMaxPictureSide);
+    assert(picture.height >= 1 && picture.height <= kMaxPictureSide);
+    assert(picture.channels == 1 || picture.channels == 3 || picture.channels == 4);
+    switch (picture.channels) {
+        case 1:
+            return fill_from_grey(picture, rgb);
+        case 3:
+            return fill_from_rgb(picture, rgb);
+        default:
+            return fill_from_rgba(picture, rgb);
+    }
+}
+
+}  // namespace haarmony::image

@@ -1,0 +1,23 @@
+// Equation (4.4) for neighbouring slots, once their matches are counted.
+//
+// Scale   as Score in query.h: exact integers.
+// Errors  none.
+// Source  sec. 4.2.4, equation (4.4); Figure 4.2.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/image/query.h"
+
+namespace haarmony::image {
+
+// scores[i] = score(query, (averages[0][i], averages[1][i], averages[2][i]), matched[i]).
+// Requires: all spans are as long as `scores`.
+void score_slots(const Query& query,
+                 const std::array<std::span<const std::int32_t>, kChannels>& averages,
+                 std::span<const std::int32_t> matched,
+                 std::span<Score> scores);
+
+}  // namespace haarmony::image

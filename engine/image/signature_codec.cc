@@ -1,0 +1,248 @@
+#include "engine/image/signature_codec.h"
+
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "engine/image/base64url.h"
+#include "engine/image/color_space.h"
+
+namespace haarmony::image {
+namespace {
+
+constexpr std::uint8_t kMagic0 = 'H';
+constexpr std::uint8_t kMagic1 = 'S';
+constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kAlgorithm = 1;      // signs and indices of the largest
+constexpr std::uint8_t kColorSpace = 1;     // YIQ
+constexpr std::uint8_t kDecomposition = 1;  // standard
+constexpr std::uint8_t kLowInformationFlag = 1;
+constexpr std::size_t kAverageOffset = 8;
+constexpr std::size_t kCountOffset = 20;
+
+constexpr std::array<char, kChannels> kChannelName = {'Y', 'I', 'Q'};
+
+// A mean is the end of 14 additions in float, each rounded by at most 2^-24 of its size.
+constexpr double kAverageSlack = 32.0 / double{kAverageOne};
+
+Error invalid(std::string message) {
+    return Error{ErrorCode::kInvalidArgument, std::move(message), "signature"};
+}
+
+std::string in_channel(int channel) {
+    return std::string(" in channel ") + kChannelName[channel];
+}
+
+// The reason why `average` cannot be the mean of this channel.
+std::optional<Error> check_average(int channel, double average) {
+    constexpr std::array<double, kChannels> kLowest = {0.0, -kMaxI, -kMaxQ};
+    constexpr std::array<double, kChannels> kHighest = {1.0, kMaxI, kMaxQ};
+    const double lowest = kLowest[channel] - kAverageSlack;
+    const double highest = kHighest[channel] + kAverageSlack;
+    if (average >= lowest && average <= highest) return std::nullopt;
+    return invalid("average " + std::to_string(average) + in_channel(channel) +
+                   " is outside [" + std::to_string(kLowest[channel]) + ", " +
+                   std::to_string(kHighest[channel]) + "]");
+}
+
+std::optional<Error> check_count(int channel, std::size_t count) {
+    if (count <= std::size_t{kMaxCoefficients}) return std::nullopt;
+    return invalid(std::to_string(count) + " coefficients" + in_channel(channel) +
+                   ", at most " + std::to_string(kMaxCoefficients));
+}
+
+// Appends signed indices to one channel, refusing those that no picture can have.
+// Requires: at most kMaxCoefficients calls for a channel.
+class IndexReader {
+  public:
+    explicit IndexReader(int channel) : channel_(channel) {}
+
+    std::optional<Error> add(int signed_index, ChannelSignature& out) {
+        const std::int64_t index = std::abs(std::int64_t{signed_index});
+        if (index == 0 || index >= kCoefficientCount) {
+            return invalid("index " + std::to_string(signed_index) +
+                           in_channel(channel_) + " is outside 1.." +
+                           std::to_string(kCoefficientCount - 1));
+        }
+        if (seen_.test(std::size_t(index))) {
+            return invalid("index " + std::to_string(index) + in_channel(channel_) +
+                           " is there twice");
+        }
+        seen_.set(std::size_t(index));
+        out.indices[out.count++] = static_cast<std::int16_t>(signed_index);
+        return std::nullopt;
+    }
+
+  private:
+    int channel_;
+    std::bitset<kCoefficientCount> seen_;
+};
+
+void put_le(std::uint32_t value, int bytes, std::vector<std::uint8_t>& out) {
+    for (int i = 0; i < bytes; ++i) {
+        out.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+    }
+}
+
+std::int32_t get_le32(const std::uint8_t* bytes) {
+    std::uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value |= std::uint32_t{bytes[i]} << (8 * i);
+    return static_cast<std::int32_t>(value);
+}
+
+std::int16_t get_le16(const std::uint8_t* bytes) {
+    return static_cast<std::int16_t>(bytes[0] | bytes[1] << 8);
+}
+
+// Everything before the averages.
+std::optional<Error> check_header(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < kSignatureHeaderBytes) {
+        return invalid("a signature of " + std::to_string(bytes.size()) +
+                       " bytes is shorter than its header of " +
+                       std::to_string(kSignatureHeaderBytes));
+    }
+    if (bytes[0] != kMagic0 || bytes[1] != kMagic1) {
+        return invalid("not a signature: it starts with bytes " +
+                       std::to_string(bytes[0]) + ", " + std::to_string(bytes[1]));
+    }
+    if (bytes[2] > kVersion) {
+        Error error = invalid("signature version " + std::to_string(bytes[2]) +
+                              " is newer than " + std::to_string(kVersion));
+        error.code = ErrorCode::kNewerVersion;
+        return error;
+    }
+    struct Field {
+        std::size_t offset;
+        std::uint8_t expected;
+        const char* name;
+    };
+    constexpr std::array<Field, 5> kFields = {{{2, kVersion, "version"},
+                                               {3, kAlgorithm, "algorithm"},
+                                               {4, kColorSpace, "color space"},
+                                               {5, kDecomposition, "decomposition"},
+                                               {6, kDecodeRule, "decode rule"}}};
+    for (const Field& field : kFields) {
+        if (bytes[field.offset] != field.expected) {
+            return invalid(std::string("signature ") + field.name + " " +
+                           std::to_string(bytes[field.offset]) + ", expected " +
+                           std::to_string(field.expected));
+        }
+    }
+    if (bytes[7] > kLowInformationFlag) {
+        return invalid("signature flags " + std::to_string(bytes[7]) + " are unknown");
+    }
+    if (bytes[23] != 0) {
+        return invalid("signature byte 23 is " + std::to_string(bytes[23]) +
+                       ", expected 0");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_signature(const Signature& signature) {
+    std::vector<std::uint8_t> bytes = {
+        kMagic0,
+        kMagic1,
+        kVersion,
+        kAlgorithm,
+        kColorSpace,
+        kDecomposition,
+        kDecodeRule,
+        signature.low_information ? kLowInformationFlag : std::uint8_t{0}};
+    bytes.reserve(kMaxSignatureBytes);
+    for (const ChannelSignature& channel : signature.channels) {
+        put_le(static_cast<std::uint32_t>(channel.average), 4, bytes);
+    }
+    for (const ChannelSignature& channel : signature.channels) {
+        bytes.push_back(channel.count);
+    }
+    bytes.push_back(0);
+    for (const ChannelSignature& channel : signature.channels) {
+        for (const std::int16_t index : channel.largest(kMaxCoefficients)) {
+            put_le(static_cast<std::uint16_t>(index), 2, bytes);
+        }
+    }
+    return bytes;
+}
+
+Result<Signature> decode_signature(std::span<const std::uint8_t> bytes) {
+    if (auto error = check_header(bytes)) return *std::move(error);
+    std::size_t expected = kSignatureHeaderBytes;
+    for (int c = 0; c < kChannels; ++c) {
+        const std::size_t count = bytes[kCountOffset + c];
+        if (auto error = check_count(c, count)) return *std::move(error);
+        expected += 2 * count;
+    }
+    if (bytes.size() != expected) {
+        return invalid("a signature of " + std::to_string(bytes.size()) +
+                       " bytes, its counts ask for " + std::to_string(expected));
+    }
+
+    Signature signature;
+    signature.low_information = bytes[7] == kLowInformationFlag;
+    const std::uint8_t* next = bytes.data() + kSignatureHeaderBytes;
+    for (int c = 0; c < kChannels; ++c) {
+        ChannelSignature& channel = signature.channels[c];
+        channel.average = get_le32(bytes.data() + kAverageOffset + 4 * std::size_t(c));
+        const double average = channel.average / double{kAverageOne};
+        if (auto error = check_average(c, average)) return *std::move(error);
+        IndexReader reader(c);
+        for (int i = 0; i < bytes[kCountOffset + c]; ++i, next += 2) {
+            if (auto error = reader.add(get_le16(next), channel))
+                return *std::move(error);
+        }
+    }
+    return signature;
+}
+
+std::string signature_to_text(const Signature& signature) {
+    return base64url_encode(encode_signature(signature));
+}
+
+Result<Signature> signature_from_text(std::string_view text) {
+    constexpr std::size_t kMaxText = base64url_length(kMaxSignatureBytes);
+    if (text.size() > kMaxText) {
+        return invalid("a signature of " + std::to_string(text.size()) +
+                       " characters, at most " + std::to_string(kMaxText));
+    }
+    const auto bytes = base64url_decode(text);
+    if (!bytes) return invalid("a signature that " + bytes.error().message);
+    return decode_signature(bytes.value());
+}
+
+OpenSignature to_open(const Signature& signature) {
+    OpenSignature open;
+    for (int c = 0; c < kChannels; ++c) {
+        const ChannelSignature& channel = signature.channels[c];
+        open.average[c] = channel.average / double{kAverageOne};
+        const auto indices = channel.largest(kMaxCoefficients);
+        open.coefficients[c].assign(indices.begin(), indices.end());
+    }
+    return open;
+}
+
+Result<Signature> from_open(const OpenSignature& open) {
+    Signature signature;
+    bool any = false;
+    for (int c = 0; c < kChannels; ++c) {
+        ChannelSignature& channel = signature.channels[c];
+        if (auto error = check_average(c, open.average[c])) return *std::move(error);
+        channel.average =
+            static_cast<std::int32_t>(std::lround(open.average[c] * kAverageOne));
+        const std::vector<int>& indices = open.coefficients[c];
+        if (auto error = check_count(c, indices.size())) return *std::move(error);
+        IndexReader reader(c);
+        for (const int index : indices) {
+            if (auto error = reader.add(index, channel)) return *std::move(error);
+        }
+        any = any || !indices.empty();
+    }
+    signature.low_information = !any;
+    return signature;
+}
+
+}  // namespace haarmony::image

@@ -1,0 +1,41 @@
+#include "engine/image/tail.h"
+
+#include <cassert>
+#include <vector>
+
+namespace haarmony::image {
+
+Tail::Tail(int capacity)
+    : capacity_(capacity), records_(std::make_unique<Record[]>(std::size_t(capacity))) {
+    assert(capacity >= 1);
+}
+
+void Tail::search(const Query& query,
+                  int m,
+                  int count,
+                  const TombstonesPtr& removed,
+                  TopK& top) const {
+    if (count == 0) return;
+    std::vector<std::int32_t> weight_of_key(kKeyCount);
+    for (const QueryTerm& term : query.terms) weight_of_key[term.key] = term.weight;
+    for (int slot = 0; slot < count; ++slot) {
+        if (is_removed(removed, slot)) continue;
+        const Record& record = records_[slot];
+        std::array<std::int32_t, kChannels> average{};
+        std::int64_t matched = 0;
+        for (int c = 0; c < kChannels; ++c) {
+            const ChannelSignature& channel = record.signature.channels[c];
+            average[c] = channel.average;
+            for (const std::int16_t signed_index : channel.largest(m)) {
+                matched += weight_of_key[coefficient_key(c, signed_index)];
+            }
+        }
+        top.offer({record.id, score(query, average, matched)});
+    }
+}
+
+std::int64_t Tail::bytes() const {
+    return std::int64_t{capacity_} * std::int64_t{sizeof(Record)};
+}
+
+}  // namespace haarmony::image

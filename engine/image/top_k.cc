@@ -1,0 +1,34 @@
+#include "engine/image/top_k.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace haarmony::image {
+namespace {
+
+bool better(const Match& a, const Match& b) {
+    return a.score != b.score ? a.score < b.score : a.id < b.id;
+}
+
+}  // namespace
+
+TopK::TopK(int limit) : limit_(static_cast<std::size_t>(limit)) { assert(limit >= 0); }
+
+void TopK::offer(const Match& match) {
+    if (full()) {
+        if (limit_ == 0 || !better(match, heap_.front())) return;
+        std::pop_heap(heap_.begin(), heap_.end(), better);
+        heap_.back() = match;
+    } else {
+        heap_.push_back(match);
+    }
+    std::push_heap(heap_.begin(), heap_.end(), better);
+}
+
+std::vector<Match> TopK::take() {
+    std::sort_heap(heap_.begin(), heap_.end(), better);
+    return std::exchange(heap_, {});
+}
+
+}  // namespace haarmony::image
