@@ -22,25 +22,31 @@
 
 #include "engine/core/image_view.h"
 #include "engine/core/result.h"
+#include "ingest/raster.h"
+#include "ingest/sniff.h"
 
 namespace haarmony::ingest {
+
+class DecoderChild;
 
 // Changes whenever the same bytes may give other pixels; kept with every signature.
 inline constexpr int kDecodeRule = 1;
 
 struct DecodeLimits {
     std::int64_t max_pixels = 100'000'000;
-    int min_side = 256;          // scaled decoding keeps at least this on each side
-    int child_seconds = 20;      // processor time a child may take for one picture
+    int min_side = 256;           // scaled decoding keeps at least this on each side
+    int child_seconds = 20;       // processor time a child may take for one picture
+    int child_wall_seconds = 60;  // time by the clock before a child is killed
     std::int64_t child_bytes = std::int64_t{2} << 30;  // address space of a child
+    std::string child_program;  // empty: haarmony-decode beside us or in ../libexec
 };
 
 struct Picture {
     std::vector<std::uint8_t> pixels;
-    int pixel_width = 0;   // of `pixels`
+    int pixel_width = 0;  // of `pixels`
     int pixel_height = 0;
     int channels = 0;
-    int width = 0;         // of the original, upright
+    int width = 0;  // of the original, upright
     int height = 0;
     std::string media_type;  // as sniffed, e.g. "image/jpeg"
 
@@ -63,9 +69,11 @@ class Decoder {
     [[nodiscard]] Result<Picture> decode(std::span<const std::uint8_t> bytes);
 
   private:
-    class Child;
+    [[nodiscard]] Result<Raster> decode_raster(Format format,
+                                               std::span<const std::uint8_t> bytes);
+
     DecodeLimits limits_;
-    std::unique_ptr<Child> child_;  // started for the first risky picture, kept
+    std::unique_ptr<DecoderChild> child_;  // started for the first risky picture, kept
 };
 
 }  // namespace haarmony::ingest

@@ -20,8 +20,9 @@ namespace haarmony::ingest {
                                                 std::span<const std::uint8_t> bytes);
 
 // Only the signature: what a query needs.
-[[nodiscard]] Result<image::Signature> describe_query(Decoder& decoder,
-                                                      std::span<const std::uint8_t> bytes);
+[[nodiscard]] Result<image::Signature> describe_query(
+    Decoder& decoder,
+    std::span<const std::uint8_t> bytes);
 
 // Lower-case hex of SHA-256.
 [[nodiscard]] std::string content_hash(std::span<const std::uint8_t> bytes);
