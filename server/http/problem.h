@@ -21,6 +21,8 @@ struct Problem {
     Headers headers = {};  // e.g. Allow, Retry-After
 };
 
+// A failure of the server itself: a 500 whose text says nothing about its inside.
+[[nodiscard]] Problem internal_problem();
 [[nodiscard]] Problem problem_of(const Error& error);
 [[nodiscard]] Response to_response(const Problem& problem, const Request& request);
 [[nodiscard]] std::string_view reason_phrase(int status);

@@ -1,15 +1,19 @@
 // Which handler answers which address.
 //
 // Answers 404 for an unknown path, 405 with `Allow` for a known path and another method,
-// HEAD by GET without its body, and OPTIONS with `Allow`.
+// HEAD by GET (the session leaves the body out), and OPTIONS with `Allow`. A literal segment
+// beats a parameter; "/images/" is not "/images".
 //
+// Errors   a handler's exception is a 500 without its text, which goes to FailureReport.
 // Threads  add() before serving; dispatch() from any thread.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/http/message.h"
 
@@ -25,8 +29,12 @@ struct RouteOptions {
 };
 
 struct RouteMatch {
-    const RouteOptions* options = nullptr;  // null: no route, dispatch gives 404 or 405
+    const RouteOptions* options = nullptr;  // null: no handler; 404, 405 or OPTIONS
+    bool open = false;                      // some method of this path needs no key
 };
+
+// Hears the text of an exception that a handler let go; for the log only.
+using FailureReport = std::function<void(const Request&, std::string_view what)>;
 
 class Router {
   public:
@@ -49,9 +57,17 @@ class Router {
 
     // The whole answer. A handler's std::exception becomes a 500 without its text.
     [[nodiscard]] Response dispatch(Request& request) const;
+    [[nodiscard]] Response dispatch(Request& request, const FailureReport& report) const;
 
   private:
+    struct Route;
     struct Node;
+    struct Found;
+    [[nodiscard]] Found find(std::string_view path) const;
+    [[nodiscard]] Response answer_without_route(Request& request,
+                                                const Found& found,
+                                                const FailureReport& report) const;
+
     std::unique_ptr<Node> root_;
     RouteOptions fallback_options_;
     Handler fallback_;

@@ -1,0 +1,146 @@
+#include "server/http/connection.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <cerrno>
+#include <utility>
+
+namespace haarmony::http {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+
+constexpr std::size_t kReadPiece = 64 * 1024;
+constexpr std::size_t kWritePiece = 256 * 1024;
+constexpr auto kTuple = net::as_tuple(net::use_awaitable);
+
+}  // namespace
+
+Connection::Connection(net::ip::tcp::socket socket)
+    : socket_(std::move(socket)), deadline_(socket_.get_executor()) {
+    error_code ignored;  // a socket that is broken already shows it at its first read
+    socket_.set_option(net::ip::tcp::no_delay(true), ignored);
+    socket_.non_blocking(true, ignored);
+}
+
+net::any_io_executor Connection::executor() { return socket_.get_executor(); }
+
+std::string Connection::remote() const {
+    error_code error;
+    const auto endpoint = socket_.remote_endpoint(error);
+    if (error) return "unknown";
+    return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
+}
+
+bool Connection::has_input() const {
+    error_code error;
+    return !received_.empty() || (socket_.available(error) > 0 && !error);
+}
+
+void Connection::start_deadline(Milliseconds deadline) {
+    timed_out_ = false;
+    const std::uint64_t number = ++deadline_number_;
+    deadline_.expires_after(deadline);
+    // A handler that is queued already cannot be cancelled, hence the number.
+    deadline_.async_wait([self = shared_from_this(), number](error_code error) {
+        if (error || number != self->deadline_number_) return;
+        self->timed_out_ = true;
+        error_code ignored;
+        self->socket_.cancel(ignored);
+    });
+}
+
+void Connection::stop_deadline() {
+    timed_out_ = false;
+    ++deadline_number_;
+    deadline_.cancel();
+}
+
+net::awaitable<Connection::Arrival> Connection::fill() {
+    for (;;) {
+        // The deadline may pass between two reads, when there is nothing to cancel.
+        if (timed_out_) co_return Arrival::kTimeout;
+        if (!draining_) {
+            // Thousands of idle connections should not hold a buffer each.
+            if (received_.empty()) received_.shrink_to_fit();
+            reading_ = true;
+            co_await socket_.async_wait(net::ip::tcp::socket::wait_read, kTuple);
+            reading_ = false;
+        }
+        if (closed_) co_return Arrival::kEnd;
+        const std::size_t old = received_.size();
+        received_.resize(old + kReadPiece);
+        error_code error;
+        const std::size_t bytes =
+            socket_.read_some(net::buffer(received_.data() + old, kReadPiece), error);
+        received_.resize(old + bytes);
+        if (bytes > 0) co_return Arrival::kBytes;
+        if (timed_out_) co_return Arrival::kTimeout;
+        if (draining_ || error != net::error::would_block) co_return Arrival::kEnd;
+    }
+}
+
+net::awaitable<bool> Connection::write(std::string_view bytes, Milliseconds deadline) {
+    while (!bytes.empty()) {
+        std::string_view piece = bytes.substr(0, kWritePiece);
+        bytes.remove_prefix(piece.size());
+        start_deadline(deadline);
+        while (!piece.empty()) {
+            if (timed_out_ || closed_) co_return false;
+            const auto [error, sent] = co_await socket_.async_write_some(
+                net::buffer(piece.data(), piece.size()), kTuple);
+            if (error) co_return false;
+            piece.remove_prefix(sent);
+        }
+    }
+    co_return true;
+}
+
+void Connection::watch(std::function<void(Departure)> left) {
+    const std::uint64_t number = ++watch_number_;
+    socket_.async_wait(
+        net::ip::tcp::socket::wait_read,
+        [self = shared_from_this(), number, left = std::move(left)](error_code error) {
+            if (error || number != self->watch_number_ || self->closed_) return;
+            char byte = 0;
+            const ssize_t got =
+                ::recv(self->socket_.native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+            if (got == 0) left(Departure::kEndOfInput);
+            if (got < 0 && errno != EAGAIN && errno != EINTR) left(Departure::kReset);
+        });
+}
+
+void Connection::unwatch() {
+    ++watch_number_;
+    error_code ignored;
+    socket_.cancel(ignored);
+}
+
+void Connection::drain() {
+    draining_ = true;
+    error_code ignored;
+    if (reading_) socket_.cancel(ignored);
+}
+
+net::awaitable<void> Connection::linger(Milliseconds deadline) {
+    error_code error;
+    socket_.shutdown(net::ip::tcp::socket::shutdown_send, error);
+    received_.clear();
+    start_deadline(deadline);
+    while (!error && co_await fill() == Arrival::kBytes) received_.clear();
+    close();
+}
+
+void Connection::close() {
+    closed_ = true;
+    stop_deadline();
+    error_code ignored;
+    socket_.close(ignored);
+}
+
+}  // namespace haarmony::http

@@ -1,0 +1,426 @@
+#include "server/http/session.h"
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <utility>
+
+#include "server/http/conditional.h"
+#include "server/http/content_encoding.h"
+#include "server/http/file_body.h"
+#include "server/http/header_value.h"
+#include "server/http/response_head.h"
+
+namespace haarmony::http {
+namespace {
+
+namespace net = boost::asio;
+using Clock = std::chrono::steady_clock;
+using State = RequestParser::State;
+using Arrival = Connection::Arrival;
+
+constexpr int kClientLeft = 499;            // in the access log only
+constexpr std::size_t kJoined = 16 * 1024;  // a body up to this goes out with its head
+
+Problem overloaded(std::string detail) {
+    return {.status = 503,
+            .code = "overloaded",
+            .detail = std::move(detail),
+            .headers = {{"Retry-After", "1"}}};
+}
+
+Problem timed_out(std::string_view what) {
+    return {.status = 408,
+            .code = "request_timeout",
+            .detail = "The request's " + std::string(what) + " took too long to arrive."};
+}
+
+}  // namespace
+
+// One request and its answer. `content_length` is that of a stream whose length is known.
+struct Session::Exchange {
+    explicit Exchange(RequestParser& from) : parser(from) {}
+
+    RequestParser& parser;
+    Clock::time_point began = Clock::now();
+    Response response;
+    std::optional<std::uint64_t> content_length;
+    bool close = false;  // whatever the client wants
+
+    Request& request() { return parser.request(); }
+    [[nodiscard]] const Request& request() const { return parser.request(); }
+    void refuse(const Problem& problem) { response = to_response(problem, request()); }
+};
+
+// Shared by a job and the session that waits for it; the last to leave the pool wakes it.
+struct Session::JobState {
+    bool ran = false;    // written by the job, read once `ended`
+    bool ended = false;  // on the strand
+};
+
+Session::Session(net::ip::tcp::socket socket,
+                 const Service& service,
+                 std::function<void()> ended)
+    : service_(service),
+      ended_(std::move(ended)),
+      connection_(std::make_shared<Connection>(std::move(socket))),
+      wake_(connection_->executor()) {}
+
+Session::~Session() { ended_(); }
+
+void Session::start(Welcome welcome) {
+    net::co_spawn(
+        connection_->executor(),
+        [self = shared_from_this(), welcome]() -> net::awaitable<void> {
+            if (welcome == Welcome::kServe) {
+                co_await self->serve();
+            } else {
+                co_await self->turn_away();
+            }
+            if (self->must_linger_ && !self->gone_) {
+                co_await self->connection_->linger(
+                    self->service_.options.linger_deadline);
+            }
+            self->connection_->close();
+        },
+        [](const std::exception_ptr& error) {
+            // Only memory runs out here; handlers' exceptions end in the router.
+            if (error) std::rethrow_exception(error);
+        });
+}
+
+void Session::drain() {
+    net::post(connection_->executor(), [self = shared_from_this()] {
+        self->connection_->drain();
+        self->wake_.cancel();
+    });
+}
+
+void Session::cut() {
+    net::post(connection_->executor(), [self = shared_from_this()] {
+        self->connection_->close();
+        self->give_up();
+    });
+}
+
+net::awaitable<void> Session::serve() {
+    while (co_await serve_request()) {
+    }
+}
+
+net::awaitable<void> Session::turn_away() {
+    RequestParser parser;
+    Exchange refused(parser);
+    refused.close = true;
+    refused.refuse(overloaded("The server has as many connections as it takes."));
+    must_linger_ = true;
+    co_await send(refused);
+    report_finished(refused);
+}
+
+// False if the connection ended before there was a request to answer.
+net::awaitable<bool> Session::read_head(RequestParser& parser) {
+    const ListenerOptions& options = service_.options;
+    bool begun = !connection_->received().empty();
+    connection_->start_read_deadline(first_ || begun ? options.header_deadline
+                                                     : options.idle_deadline);
+    for (;;) {
+        connection_->consume(parser.feed(connection_->received()));
+        if (parser.state() != State::kHead) co_return true;
+        const Arrival arrival = co_await connection_->fill();
+        if (arrival == Arrival::kEnd) co_return false;
+        if (arrival == Arrival::kTimeout) {
+            if (!begun) co_return false;
+            parser.refuse(timed_out("head"));
+            co_return true;
+        }
+        if (!begun && !first_) connection_->start_read_deadline(options.header_deadline);
+        begun = true;
+    }
+}
+
+// To kDone or kBad; if the client stops in the middle of the body, `gone_` is set.
+net::awaitable<void> Session::read_body(RequestParser& parser) {
+    connection_->start_read_deadline(service_.options.body_deadline);
+    for (;;) {
+        connection_->consume(parser.feed(connection_->received()));
+        if (parser.state() != State::kBody) co_return;
+        const Arrival arrival = co_await connection_->fill();
+        if (arrival == Arrival::kTimeout) {
+            parser.refuse(timed_out("body"));
+        } else if (arrival == Arrival::kEnd) {
+            gone_ = true;
+        }
+        if (arrival != Arrival::kBytes) co_return;
+    }
+}
+
+// Sees to what the head says of the body, up to "100 Continue". False if the client left.
+net::awaitable<bool> Session::expect_body(RequestParser& parser, std::uint64_t limit) {
+    const std::string_view coding = parser.request().header("Content-Encoding");
+    const std::string_view expect = parser.request().header("Expect");
+    if (!coding.empty() && !equal_without_case(coding, "identity")) {
+        parser.refuse({.status = 415,
+                       .code = "unsupported_content_encoding",
+                       .detail = "Bodies are taken as they are, not encoded as '" +
+                                 std::string(coding) + "'.",
+                       .param = "Content-Encoding",
+                       .headers = {{"Accept-Encoding", "identity"}}});
+        co_return true;
+    }
+    if (!expect.empty() && !equal_without_case(expect, "100-continue")) {
+        parser.refuse({.status = 417,
+                       .code = "expectation_failed",
+                       .detail = "Expect: '" + std::string(expect) + "' is not known.",
+                       .param = "Expect"});
+        co_return true;
+    }
+    parser.begin_body(limit);
+    const bool wants_word = !expect.empty() && parser.state() == State::kBody &&
+                            !parser.is_http_1_0() && connection_->received().empty();
+    if (!wants_word) co_return true;
+    co_return co_await connection_->write("HTTP/1.1 100 Continue\r\n\r\n",
+                                          service_.options.write_deadline);
+}
+
+// One request. True if another may follow.
+net::awaitable<bool> Session::serve_request() {
+    RequestParser parser;
+    if (!co_await read_head(parser)) co_return false;
+    first_ = false;
+    Exchange exchange(parser);
+    Request& request = parser.request();
+    request.remote = connection_->remote();
+    stop_ = std::stop_source();
+    request.cancelled = stop_.get_token();
+
+    bool answered = false;
+    if (parser.state() == State::kHeadDone) {
+        answered = !admit(exchange);
+        if (!answered) {
+            const RouteMatch match = service_.router.match(request.method, request.path);
+            // Without a route no body is read: the answer does not depend on it.
+            if (match.options == nullptr) {
+                exchange.response =
+                    service_.router.dispatch(request, service_.hooks.failed);
+                answered = true;
+            } else {
+                if (!co_await expect_body(parser, match.options->body_limit))
+                    co_return false;
+                if (parser.state() == State::kBody) co_await read_body(parser);
+            }
+        }
+        if (answered && parser.has_body()) exchange.close = must_linger_ = true;
+    }
+    connection_->stop_deadline();
+    if (gone_) {
+        exchange.response.status = kClientLeft;
+        report_finished(exchange);
+        co_return false;
+    }
+    if (parser.state() == State::kBad) {
+        exchange.refuse(parser.problem());
+        exchange.close = must_linger_ = true;
+        answered = true;
+    }
+
+    const bool wants_to_stay = parser.state() != State::kBad && parser.keep_alive();
+    connection_->watch(
+        [weak = weak_from_this(), wants_to_stay](Connection::Departure how) {
+            if (const auto self = weak.lock()) self->peer_left(how, wants_to_stay);
+        });
+    if (!answered) co_await answer(exchange);
+    const bool sent = !gone_ && co_await send(exchange);
+    if (gone_) exchange.response.status = kClientLeft;
+    connection_->unwatch();
+    report_finished(exchange);
+    co_return sent && !gone_ && !exchange.close;
+}
+
+// False if the answer stands already: a key is missing.
+bool Session::admit(Exchange& exchange) {
+    if (!service_.hooks.admit) return true;
+    const RouteMatch match =
+        service_.router.match(exchange.request().method, exchange.request().path);
+    const RouteOptions options =
+        match.options != nullptr ? *match.options : RouteOptions{.open = match.open};
+    std::optional<Response> refusal = service_.hooks.admit(exchange.request(), options);
+    if (!refusal) return true;
+    exchange.response = *std::move(refusal);
+    return false;
+}
+
+// Runs the handler on its pool and prepares its answer there, too.
+net::awaitable<void> Session::answer(Exchange& exchange) {
+    const RouteMatch match =
+        service_.router.match(exchange.request().method, exchange.request().path);
+    const bool costly = match.options != nullptr && match.options->cost == Cost::kCostly;
+    const Service& service = service_;
+    const auto work = [&exchange, &service] {
+        Request& request = exchange.request();
+        Response& response = exchange.response;
+        response = service.router.dispatch(request, service.hooks.failed);
+        const bool compress = select_gzip(request, response);
+        apply_conditions(request, response);
+        if (compress && response.status == 200) gzip_body(response);
+        exchange.content_length = body_length(response);
+        const auto* range = std::get_if<FileRange>(&response.body);
+        if (range == nullptr) return;
+        Result<ChunkSource> source = open_file_range(*range);
+        if (source) {
+            response.body = *std::move(source);
+            return;
+        }
+        if (service.hooks.failed) service.hooks.failed(request, source.error().message);
+        response = to_response(problem_of(source.error()), request);
+        exchange.content_length = body_length(response);
+    };
+    const JobEnd end = co_await run_on(costly ? service_.costly : service_.cheap, work);
+    if (end == JobEnd::kRefused) {
+        exchange.refuse(overloaded("Too many requests are waiting already."));
+    } else if (end == JobEnd::kDropped) {
+        gone_ = true;
+    }
+}
+
+net::awaitable<Session::JobEnd> Session::run_on(WorkerPool& pool,
+                                                std::function<void()> work) {
+    const auto state = std::make_shared<JobState>();
+    // Destroyed after the job, or in its place.
+    const auto notice = [self = shared_from_this(), state](void*) {
+        net::post(self->connection_->executor(), [self, state] {
+            state->ended = true;
+            self->wake_.cancel();
+        });
+    };
+    std::optional<WorkerPool::Ticket> ticket;
+    {
+        std::shared_ptr<void> completion(nullptr, notice);
+        ticket = pool.submit(
+            [work = std::move(work), state, completion = std::move(completion)] {
+                work();
+                state->ran = true;
+            });
+    }
+    if (!ticket) co_return JobEnd::kRefused;
+    while (!state->ended) {
+        if (gone_) pool.cancel(*ticket);
+        co_await sleep_until_woken(std::chrono::hours(24));
+    }
+    co_return state->ran ? JobEnd::kRan : JobEnd::kDropped;
+}
+
+net::awaitable<void> Session::sleep_until_woken(std::chrono::milliseconds at_most) {
+    wake_.expires_after(at_most);
+    co_await wake_.async_wait(net::as_tuple(net::use_awaitable));
+}
+
+// Sends head and body. False if the connection cannot be used any more.
+net::awaitable<bool> Session::send(Exchange& exchange) {
+    Response& response = exchange.response;
+    const auto* bytes = std::get_if<std::string>(&response.body);
+    const auto* source = std::get_if<ChunkSource>(&response.body);
+    const auto* range = std::get_if<FileRange>(&response.body);
+    if (bytes != nullptr) exchange.content_length = bytes->size();
+    if (range != nullptr) exchange.content_length = range->length;
+
+    const bool has_body =
+        may_have_body(response.status) && exchange.request().method != "HEAD";
+    exchange.close = exchange.close || ends_after(exchange);
+    const bool framed = exchange.content_length.has_value();
+    const bool old = !framed && exchange.parser.is_http_1_0();
+    if (old && has_body) exchange.close = true;
+    std::string head = response_head(response,
+                                     {.content_length = exchange.content_length,
+                                      .chunked = !framed && !old,
+                                      .keep_alive = !exchange.close,
+                                      .http_1_0 = exchange.parser.is_http_1_0(),
+                                      .request_id = exchange.request().request_id,
+                                      .now = std::time(nullptr)});
+    const Connection::Milliseconds deadline = service_.options.write_deadline;
+    const bool joined = has_body && bytes != nullptr && bytes->size() <= kJoined;
+    if (joined) head += *bytes;
+    if (!co_await connection_->write(head, deadline)) co_return false;
+    if (!has_body || joined) co_return true;
+    if (bytes != nullptr) co_return co_await connection_->write(*bytes, deadline);
+    co_return co_await send_stream(exchange, *source);
+}
+
+net::awaitable<bool> Session::send_stream(Exchange& exchange, const ChunkSource& source) {
+    const bool chunked = !exchange.content_length && !exchange.parser.is_http_1_0();
+    std::uint64_t left = exchange.content_length.value_or(0);
+    for (;;) {
+        std::optional<std::string> chunk;
+        std::string failure;
+        const JobEnd end = co_await run_on(service_.streams, [&] {
+            try {
+                chunk = source();
+            } catch (const std::exception& error) {
+                failure = *error.what() == '\0' ? "unnamed" : error.what();
+            }
+        });
+        if (!failure.empty() && service_.hooks.failed) {
+            service_.hooks.failed(exchange.request(), failure);
+        }
+        if (end != JobEnd::kRan || !failure.empty() || gone_) co_return false;
+        if (chunk && chunk->empty() && !connection_->draining()) {
+            co_await sleep_until_woken(service_.options.poll_interval);
+            if (gone_) co_return false;
+            continue;
+        }
+        if (!chunk || chunk->empty()) break;
+        if (chunked) {
+            std::array<char, 24> size{};
+            std::snprintf(size.data(), size.size(), "%zx\r\n", chunk->size());
+            chunk->insert(0, size.data());
+            chunk->append("\r\n");
+        } else if (exchange.content_length) {
+            left -= chunk->size();
+        }
+        if (!co_await connection_->write(*chunk, service_.options.write_deadline)) {
+            co_return false;
+        }
+    }
+    if (left != 0) co_return false;
+    if (chunked)
+        co_return co_await connection_->write("0\r\n\r\n",
+                                              service_.options.write_deadline);
+    co_return true;
+}
+
+bool Session::ends_after(const Exchange& exchange) const {
+    if (exchange.parser.state() != State::kDone &&
+        exchange.parser.state() != State::kHeadDone) {
+        return true;
+    }
+    // Stopping, the requests that have arrived behind this one are still answered.
+    const bool last = connection_->draining() && !connection_->has_input();
+    return !exchange.parser.keep_alive() || last;
+}
+
+void Session::peer_left(Connection::Departure departure, bool wants_to_stay) {
+    const bool left = departure == Connection::Departure::kReset ||
+                      (wants_to_stay && connection_->received().empty());
+    if (left) give_up();
+}
+
+void Session::give_up() {
+    gone_ = true;
+    stop_.request_stop();
+    wake_.cancel();
+}
+
+void Session::report_finished(const Exchange& exchange) const {
+    if (!service_.hooks.finished) return;
+    service_.hooks.finished(exchange.request(),
+                            exchange.response.status,
+                            std::chrono::duration_cast<std::chrono::microseconds>(
+                                Clock::now() - exchange.began));
+}
+
+}  // namespace haarmony::http

@@ -1,0 +1,55 @@
+// A fixed number of threads with a bounded queue: when it is full, work is refused rather
+// than piled up.
+//
+// Threads  every member from any thread; stop() not from a job.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace haarmony::http {
+
+class WorkerPool {
+  public:
+    using Job = std::function<void()>;
+    using Ticket = std::uint64_t;
+
+    // At least one thread and one place in the queue, whatever is asked for.
+    WorkerPool(int threads, int queue_limit);
+    ~WorkerPool();
+    WorkerPool(const WorkerPool&) = delete;
+    WorkerPool& operator=(const WorkerPool&) = delete;
+
+    // Jobs start in the order of their submission and must not throw. Nothing if
+    // `queue_limit` jobs wait already, or after stop().
+    [[nodiscard]] std::optional<Ticket> submit(Job job);
+
+    // Destroys the job without running it. False if it has started already.
+    bool cancel(Ticket ticket);
+
+    // Destroys what is queued, waits for what runs. A job learns that it is never going to
+    // run by the destructors of what it holds.
+    void stop();
+
+    [[nodiscard]] std::size_t queued() const;
+
+  private:
+    void work();
+
+    const std::size_t queue_limit_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::map<Ticket, Job> queue_;  // guarded by mutex_; the oldest first
+    Ticket next_ = 0;              // guarded by mutex_
+    bool stopping_ = false;        // guarded by mutex_
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace haarmony::http
