@@ -1,0 +1,121 @@
+// The pictures found, best first, in row-major order. A card that stays is moved, not made
+// anew, so that results glide to their new places while somebody paints.
+
+import { thumbnailAddress } from './api.js';
+import { toFragment } from './address.js';
+import { byId, icon, make } from './dom.js';
+import { nameOf, percent } from './wording.js';
+
+/** @typedef {import('./api.js').Match} Match */
+
+const kGlideMs = 260;
+
+export class Results {
+  #grid = byId('grid', HTMLOListElement);
+  /** @type {Map<number, Card>} */ #cards = new Map();
+  /** @type {Match[]} */ matches = [];
+  #loader;
+  #port;
+
+  /**
+   * @param {import('./pictures.js').PictureLoader} loader
+   * @param {{like: (match: Match) => void, open: (index: number) => void}} port
+   */
+  constructor(loader, port) {
+    this.#loader = loader;
+    this.#port = port;
+  }
+
+  /** @param {Match[]} matches */
+  show(matches) {
+    const places = this.#places();
+    this.matches = matches;
+    const cards = matches.map((match) => this.#cards.get(match.id) ?? new Card(this.#loader));
+    this.#cards = new Map(matches.map((match, i) => [match.id, cards[i]]));
+    cards.forEach((card, i) => card.fill(matches[i], () => this.#port.open(i), this.#port.like));
+    // replaceChildren() would take the focus away from a card that stays.
+    cards.forEach((card, i) => {
+      const at = this.#grid.children[i];
+      if (at !== card.element) this.#grid.insertBefore(card.element, at ?? null);
+    });
+    while (this.#grid.children.length > cards.length) this.#grid.lastElementChild?.remove();
+    this.#grid.hidden = false;
+    this.#glide(places);
+  }
+
+  hide() {
+    this.#grid.hidden = true;
+  }
+
+  /** @param {boolean} busy */
+  set busy(busy) {
+    this.#grid.setAttribute('aria-busy', String(busy));
+  }
+
+  /** @returns {Map<Card, DOMRect>} */
+  #places() {
+    if (this.#grid.hidden || matchMedia('(prefers-reduced-motion: reduce)').matches) {
+      return new Map();
+    }
+    const cards = [...this.#cards.values()];
+    return new Map(cards.map((card) => [card, card.element.getBoundingClientRect()]));
+  }
+
+  /** @param {Map<Card, DOMRect>} places */
+  #glide(places) {
+    for (const card of this.#cards.values()) {
+      const from = places.get(card);
+      if (!from) continue;
+      const to = card.element.getBoundingClientRect();
+      const [dx, dy] = [from.left - to.left, from.top - to.top];
+      if (dx === 0 && dy === 0) continue;
+      card.element.animate(
+        [{ transform: `translate(${dx}px, ${dy}px)` }, { transform: 'none' }],
+        { duration: kGlideMs, easing: 'cubic-bezier(.2, .7, .2, 1)' },
+      );
+    }
+  }
+}
+
+class Card {
+  #image = make('img', { alt: '', decoding: 'async', draggable: false });
+  #link = make('a', { className: 'card-picture' }, this.#image);
+  #open = make('button', { type: 'button', className: 'card-open' }, icon('open'));
+  #meter = make('span', { className: 'meter' });
+  #share = make('span', { className: 'share' });
+  #loader;
+
+  /** @param {import('./pictures.js').PictureLoader} loader */
+  constructor(loader) {
+    this.#loader = loader;
+    const caption = make('p', { className: 'caption' }, this.#meter, this.#share);
+    caption.setAttribute('aria-hidden', 'true'); // the link says it
+    this.element = make('li', { className: 'card' }, this.#link, this.#open, caption);
+  }
+
+  /**
+   * @param {Match} match
+   * @param {() => void} open
+   * @param {(match: Match) => void} like
+   */
+  fill(match, open, like) {
+    const name = nameOf(match);
+    const similarity = percent(match.similarity);
+    this.element.dataset.id = String(match.id);
+    this.#link.href = toFragment({ id: match.id, profile: 'scanned' });
+    this.#link.title = `${name}: find more like this`;
+    this.#link.setAttribute('aria-label', `${match.rank}. ${name}, ${similarity} similar. Find more like it`);
+    this.#link.onclick = (event) => {
+      // With a modifier it is an ordinary link, for a tab of its own.
+      if (event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
+      event.preventDefault();
+      like(match);
+    };
+    this.#open.title = `Open ${name}`;
+    this.#open.setAttribute('aria-label', `Open ${name}`);
+    this.#open.onclick = open;
+    this.#meter.style.setProperty('--similarity', String(match.similarity));
+    this.#share.textContent = similarity;
+    void this.#loader.show(this.#image, thumbnailAddress(match.id));
+  }
+}

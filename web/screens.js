@@ -1,0 +1,129 @@
+// The right side of the page shows one of: the first screen, results, a problem, or that the
+// collection is empty; and, above results, what was asked.
+
+import { byId, make } from './dom.js';
+import { toFragment } from './address.js';
+import { thumbnailAddress } from './api.js';
+import { counted, duration, nameOf } from './wording.js';
+
+/** @typedef {import('./api.js').Picture} Picture */
+/** @typedef {import('./api.js').Reply} Reply */
+/** @typedef {'welcome' | 'results' | 'problem' | 'empty'} Screen */
+
+/** A quick answer should not make the progress line flicker. */
+const kProgressDelayMs = 150;
+
+export class Screens {
+  /** @type {Screen} */ #now = 'welcome';
+  #loader;
+  #results;
+  #progressTimer = 0;
+
+  /**
+   * @param {import('./pictures.js').PictureLoader} loader
+   * @param {import('./results.js').Results} results
+   */
+  constructor(loader, results) {
+    this.#loader = loader;
+    this.#results = results;
+  }
+
+  get now() {
+    return this.#now;
+  }
+
+  /** @param {Screen} screen */
+  show(screen) {
+    this.#now = screen;
+    for (const name of ['welcome', 'problem', 'empty']) {
+      byId(name, HTMLElement).hidden = name !== screen;
+    }
+    if (screen !== 'results') this.#results.hide();
+    byId('query', HTMLElement).hidden = screen === 'welcome' || screen === 'empty';
+  }
+
+  /** @param {boolean} busy */
+  set busy(busy) {
+    const line = byId('progress', HTMLElement);
+    window.clearTimeout(this.#progressTimer);
+    if (busy) this.#progressTimer = window.setTimeout(() => (line.hidden = false), kProgressDelayMs);
+    else line.hidden = true;
+    this.#results.busy = busy;
+  }
+
+  /**
+   * What is searched for.
+   * @param {import('./finder.js').Query} query
+   */
+  ask({ asked, source, profile }) {
+    byId('findings-title', HTMLElement).textContent = asked.title;
+    const picture = byId('asked-picture', HTMLImageElement);
+    picture.hidden = asked.preview === null && source.kind !== 'id';
+    if (asked.preview !== null) {
+      picture.dataset.address = '';
+      picture.src = asked.preview;
+    } else if (source.kind === 'id') {
+      void this.#loader.show(picture, thumbnailAddress(source.id));
+    }
+    byId('paint-over', HTMLElement).hidden = picture.hidden;
+    const shared = byId('shared', HTMLElement);
+    shared.hidden = asked.shared === null;
+    shared.textContent = asked.shared ?? '';
+    for (const input of byId('profile', HTMLElement).querySelectorAll('input')) {
+      input.checked = input.value === profile;
+    }
+  }
+
+  /** @param {Reply} reply */
+  answer(reply) {
+    this.show('results');
+    const found = counted(reply.searched, 'picture', 'pictures');
+    byId('summary', HTMLElement).textContent = `${found} searched in ${duration(reply.took_ms)}`;
+    byId('low-information', HTMLElement).hidden = reply.query.low_information !== true;
+    this.#results.show(reply.matches);
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} text
+   * @param {boolean} again whether trying again may help
+   */
+  problem(title, text, again) {
+    this.show('problem');
+    byId('problem-title', HTMLElement).textContent = title;
+    byId('problem-text', HTMLElement).textContent = text;
+    byId('problem-button', HTMLElement).hidden = !again;
+    byId('summary', HTMLElement).textContent = '';
+    byId('low-information', HTMLElement).hidden = true;
+  }
+
+  /** @param {number} count pictures in the collection */
+  count(count) {
+    byId('collection', HTMLElement).textContent = counted(count, 'picture', 'pictures');
+    byId('welcome-count', HTMLElement).textContent =
+      count > 1 ? ` of ${counted(count, 'picture', 'pictures')}` : '';
+  }
+
+  /**
+   * @param {Picture[]} pictures
+   * @param {(picture: Picture) => void} like
+   */
+  offer(pictures, like) {
+    byId('samples-title', HTMLElement).hidden = pictures.length === 0;
+    byId('samples', HTMLElement).replaceChildren(
+      ...pictures.map((picture) => {
+        const image = make('img', { alt: '', decoding: 'async' });
+        void this.#loader.show(image, thumbnailAddress(picture.id));
+        const href = toFragment({ id: picture.id, profile: 'scanned' });
+        const link = make('a', { className: 'card-picture', href }, image);
+        link.setAttribute('aria-label', `Find pictures like ${nameOf(picture)}`);
+        link.addEventListener('click', (event) => {
+          if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+          event.preventDefault();
+          like(picture);
+        });
+        return make('li', {}, link);
+      }),
+    );
+  }
+}
