@@ -4,8 +4,11 @@
 // Shape    signatures are bytes that this folder does not understand.
 // Units    sizes in pixels and bytes; mtime in nanoseconds since 1970; sequence numbers
 //          grow with every commit that changes what can be found.
-// Errors   kNotFound for an unknown id; kIo with SQLite's message otherwise (kUnavailable
-//          where the database stays locked beyond the busy timeout).
+// Errors   kNotFound for an unknown id; kConflict for a second file row of one uri;
+//          kInvalidArgument for a value that the tables refuse (an empty signature, metadata
+//          that is no JSON object); kUnavailable where the database stays locked beyond the
+//          busy timeout; kIo with SQLite's message otherwise. A function that fails leaves
+//          nothing of itself behind, inside a transaction() too.
 // Threads  as Database.
 #pragma once
 
@@ -45,14 +48,14 @@ struct Image {
     FileStamp stamp;
     int width = 0;  // after EXIF orientation
     int height = 0;
-    std::string media_type;          // of the original, e.g. "image/jpeg"
-    std::vector<std::string> tags;   // sorted, each once
-    std::string metadata = "{}";     // a JSON object, stored as it came
-    std::string failure;             // reason, for kFailed
+    std::string media_type;         // of the original, e.g. "image/jpeg"
+    std::vector<std::string> tags;  // sorted, each once
+    std::string metadata = "{}";    // a JSON object, stored as it came
+    std::string failure;            // reason, for kFailed
     bool low_information = false;
-    std::string added_at;            // RFC 3339, UTC
+    std::string added_at;  // RFC 3339, UTC
     std::string updated_at;
-    std::int64_t revision = 0;       // grows with every change of this row: for ETags
+    std::int64_t revision = 0;  // grows with every change of this row: for ETags
 };
 
 // All that one decoded picture leaves behind.
@@ -84,10 +87,13 @@ struct Change {
     std::vector<std::uint8_t> signature;  // empty: not searchable any more
 };
 
+// More tags in one ListOptions are refused (kInvalidArgument).
+inline constexpr std::size_t kMaxListTags = 64;
+
 struct ListOptions {
-    int limit = 100;
-    std::optional<ImageId> after;        // only ids above
-    std::vector<std::string> tags;       // all must match
+    int limit = 100;                // >= 1
+    std::optional<ImageId> after;   // only ids above
+    std::vector<std::string> tags;  // all must match
 };
 
 struct Counts {
@@ -104,15 +110,15 @@ class ImageStore {
     ImageStore& operator=(const ImageStore&) = delete;
 
     // Runs `work` in one IMMEDIATE transaction: committed when it succeeds, rolled back
-    // when it fails or throws.
+    // when it fails or throws. One inside another is a caller's bug and asserts.
     [[nodiscard]] Result<void> transaction(const std::function<Result<void>()>& work);
 
-    // Always a new row.
+    // Always a new row. A thumbnail without bytes is none.
     [[nodiscard]] Result<ImageId> add(const NewImage& image);
     // Replaces what the pixels gave (stamp, size, signature, thumbnail, state), keeping
     // id, uri, tags and metadata; revives a failed or deleted row.
     [[nodiscard]] Result<void> update(ImageId id, const NewImage& image);
-    // Only the stamp: the content is the same.
+    // Only the stamp: the content is the same. A new revision, but no change to follow.
     [[nodiscard]] Result<void> touch(ImageId id, const FileStamp& stamp);
     // A file that cannot be decoded: an existing row (by uri, of origin kFile) loses its
     // signature, else a row is made.
@@ -134,24 +140,27 @@ class ImageStore {
     [[nodiscard]] Result<Thumbnail> thumbnail(ImageId id);
 
     [[nodiscard]] Result<std::optional<KnownFile>> known_file(const std::string& uri);
-    // Every file row whose uri starts with `uri_prefix`, deleted and failed ones included.
+    // Every file row whose uri starts with `uri_prefix`, deleted and failed ones included,
+    // in the order of their uris. `visit` may read; what it would write waits until after.
     [[nodiscard]] Result<void> for_each_file(
         const std::string& uri_prefix,
         const std::function<void(const KnownFile&, const std::string& uri)>& visit);
 
     [[nodiscard]] Result<Counts> counts();
 
-    // Every searchable picture and the sequence number that the set corresponds to, read
-    // in one transaction.
+    // Every searchable picture, in the order of ids, and the sequence number that the set
+    // corresponds to, read in one transaction. The bytes last until `visit` returns; it may
+    // read, but not write.
     [[nodiscard]] Result<std::int64_t> for_each_signature(
         const std::function<void(ImageId, std::span<const std::uint8_t>)>& visit);
-    // The changes after `sequence`, oldest first, at most `limit`; a row changed several
-    // times appears once, at its last change.
-    [[nodiscard]] Result<std::vector<Change>> changes_after(std::int64_t sequence, int limit);
+    // The changes after `sequence`, oldest first, at most `limit` (>= 1); a row changed
+    // several times appears once, at its last change. A picture that a follower never saw
+    // may appear as gone. What a search cannot see (stamp, tags, metadata) is no change.
+    [[nodiscard]] Result<std::vector<Change>> changes_after(std::int64_t sequence,
+                                                            int limit);
 
   private:
     struct Statements;
-    Database& database_;
     std::unique_ptr<Statements> statements_;
 };
 

@@ -1,0 +1,189 @@
+#include "schema/migrate.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "schema/database.h"
+#include "schema/image_store.h"
+#include "tests/schema/pictures.h"
+#include "tests/schema/raw_sql.h"
+#include "tests/schema/scratch_folder.h"
+
+namespace haarmony::schema {
+namespace {
+
+// A database as version `version` left it, with pictures written by that version's SQL:
+// ids 1 to 5, of which 4 failed and 5 is deleted.
+void make_fixture(const std::string& path, int version) {
+    const RawConnection connection(path);
+    sqlite3* database = connection.handle();
+    expect(migrate(database, migrations().first(static_cast<std::size_t>(version))));
+    run_sql(database, "PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
+    for (int number = 1; number <= 5; ++number) {
+        const std::string state = number < 4    ? "indexed"
+                                  : number == 4 ? "failed"
+                                                : "deleted";
+        const std::string n = std::to_string(number);
+        run_sql(database,
+                "INSERT INTO images VALUES (" + n + ", 'file', '" + state +
+                    "', 'file:///old/" + n +
+                    "', 10, 20, 'hash', 30, 40, 'image/png', 0, " +
+                    (number < 4 ? "x'0102030" + n + "'" : "NULL") + ", '" +
+                    (number == 4 ? "broken" : "") +
+                    "', '2020-01-01T00:00:00.000Z', '2020-01-01T00:00:00.000Z', 1,"
+                    " '{\"n\":" +
+                    n + "}')");
+        run_sql(database, "INSERT INTO image_tags VALUES (" + n + ", 'old')");
+    }
+    run_sql(database, "INSERT INTO thumbnails VALUES (1, 'image/webp', x'ff')");
+}
+
+std::string schema_text(sqlite3* database) {
+    return sql_text(
+        database,
+        "SELECT group_concat(type || name || coalesce(sql, ''), char(10)) FROM"
+        " (SELECT * FROM sqlite_schema ORDER BY type, name)");
+}
+
+TEST(Migrate, EveryOlderVersionReachesTheSchemaOfANewDatabaseAndKeepsItsRows) {
+    const ScratchFolder folder;
+    const Database fresh = open_database(folder.file("fresh.db"));
+    for (int version = 1; version <= current_version(); ++version) {
+        SCOPED_TRACE(version);
+        const std::string path = folder.file(std::to_string(version) + ".db");
+        make_fixture(path, version);
+        Database database = open_database(path);
+        EXPECT_EQ(schema_text(database.handle()), schema_text(fresh.handle()));
+        EXPECT_EQ(sql_text(database.handle(), "PRAGMA integrity_check"), "ok");
+
+        ImageStore store(database);
+        for (int number = 1; number <= 3; ++number) {
+            const Image image = expect(store.get(ImageId{number}));
+            EXPECT_EQ(image.uri, "file:///old/" + std::to_string(number));
+            EXPECT_EQ(image.tags, std::vector<std::string>{"old"});
+            EXPECT_EQ(expect(store.signature(ImageId{number})).back(), number);
+        }
+        EXPECT_EQ(expect(store.get(ImageId{4})).failure, "broken");
+        EXPECT_EQ(expect(store.thumbnail(ImageId{1})).bytes.size(), 1u);
+        EXPECT_EQ(expect(store.counts()).deleted, 1);
+
+        // A follower that starts from nothing learns of every searchable picture.
+        std::vector<ImageId> searchable;
+        for (const Change& change : expect(store.changes_after(0, 100))) {
+            if (!change.signature.empty()) searchable.push_back(change.id);
+        }
+        EXPECT_EQ(searchable, (std::vector{ImageId{1}, ImageId{2}, ImageId{3}}));
+        EXPECT_GT(to_int(expect(store.add(file_picture(1)))), 5);
+    }
+}
+
+TEST(Migrate, IsNumberedFromOneWithoutAGap) {
+    ASSERT_FALSE(migrations().empty());
+    for (std::size_t i = 0; i < migrations().size(); ++i) {
+        EXPECT_EQ(migrations()[i].version, static_cast<int>(i) + 1);
+    }
+}
+
+TEST(Migrate, AFailingStepLeavesTheVersionBeforeItAndNothingOfItself) {
+    const ScratchFolder folder;
+    const RawConnection connection(folder.file("x.db"));
+    const Migration steps[] = {
+        {1, "0001_one.sql", "CREATE TABLE one (a INTEGER); INSERT INTO one VALUES (1);"},
+        {2,
+         "0002_two.sql",
+         "CREATE TABLE two (a); INSERT INTO one VALUES (2); nonsense;"}};
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        const auto result = migrate(connection.handle(), steps);
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().code, ErrorCode::kIo);
+        for (const std::string words : {"x.db", "0002_two.sql", "nonsense"}) {
+            EXPECT_NE(result.error().message.find(words), std::string::npos)
+                << result.error().message;
+        }
+        EXPECT_EQ(sql_integer(connection.handle(), "PRAGMA user_version"), 1);
+        EXPECT_EQ(sql_integer(connection.handle(), "SELECT sum(a) FROM one"), 1);
+        EXPECT_EQ(sql_integer(connection.handle(),
+                              "SELECT count(*) FROM sqlite_schema WHERE name = 'two'"),
+                  0);
+        EXPECT_NE(sqlite3_get_autocommit(connection.handle()), 0);
+    }
+}
+
+TEST(Migrate, AStepThatLeavesDanglingReferencesIsRolledBack) {
+    const ScratchFolder folder;
+    const RawConnection connection(folder.file("x.db"));
+    const Migration steps[] = {
+        {1,
+         "0001_one.sql",
+         "CREATE TABLE one (a INTEGER PRIMARY KEY);"
+         "CREATE TABLE two (a INTEGER REFERENCES one (a)); INSERT INTO two VALUES (9);"}};
+    const auto result = migrate(connection.handle(), steps);
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().message.find("1 rows that refer to nothing"),
+              std::string::npos)
+        << result.error().message;
+    EXPECT_EQ(sql_integer(connection.handle(), "PRAGMA user_version"), 0);
+    EXPECT_EQ(sql_integer(connection.handle(), "SELECT count(*) FROM sqlite_schema"), 0);
+}
+
+TEST(Migrate, AFullDiskLeavesTheOlderVersionWhole) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    make_fixture(path, 1);
+    {
+        const RawConnection connection(path);
+        run_sql(connection.handle(),
+                "PRAGMA max_page_count = 1");  // no page more than now
+        const auto result = migrate(connection.handle(), migrations());
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().code, ErrorCode::kIo);
+        EXPECT_NE(result.error().message.find("full"), std::string::npos)
+            << result.error().message;
+        EXPECT_EQ(sql_integer(connection.handle(), "PRAGMA user_version"), 1);
+        EXPECT_EQ(sql_integer(connection.handle(), "SELECT count(*) FROM images"), 5);
+    }
+    const Database database = open_database(path);
+    EXPECT_EQ(sql_integer(database.handle(), "PRAGMA user_version"), current_version());
+}
+
+TEST(Migrate, WaitsNoLongerThanTheBusyTimeoutForAnotherWriter) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    make_fixture(path, 1);
+    const RawConnection writer(path);
+    run_sql(writer.handle(), "BEGIN IMMEDIATE; DELETE FROM thumbnails");
+    const RawConnection connection(path);
+    const auto result = migrate(connection.handle(), migrations());
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kUnavailable) << result.error().message;
+}
+
+TEST(Migrate, AnOlderVersionCannotBeOpenedReadOnly) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    make_fixture(path, 1);
+    const auto before = read_bytes(path);
+    const auto result = Database::open(path, Database::Mode::kReadOnly);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kConflict);
+    for (const std::string& words :
+         {path, std::string("version 1"), std::to_string(current_version())}) {
+        EXPECT_NE(result.error().message.find(words), std::string::npos)
+            << result.error().message;
+    }
+    EXPECT_EQ(read_bytes(path), before);
+}
+
+TEST(Migrate, AnUpToDateDatabaseOpensWhileAnotherProcessWrites) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    Database writer = open_database(path);
+    run_sql(writer.handle(), "BEGIN IMMEDIATE; DELETE FROM thumbnails");
+    Database second = open_database(path);
+    ImageStore store(second);
+    EXPECT_EQ(expect(store.counts()).indexed, 0);
+    run_sql(writer.handle(), "ROLLBACK");
+}
+
+}  // namespace
+}  // namespace haarmony::schema
