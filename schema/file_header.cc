@@ -3,10 +3,12 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -35,19 +37,42 @@ Error system_error(const std::string& path, int number) {
     return Error{ErrorCode::kIo, path + ": " + std::generic_category().message(number)};
 }
 
-// Through SQLite's own file layer, never open() and close(): closing any descriptor of a
-// file drops every POSIX lock that this process holds on it, those of its open connections
-// too, and another process could then delete the -wal under them. SQLite's layer puts off
-// the close until those locks are gone.
-Result<Header> read_header(const std::string& path) {
+// Absolute, symbolic links resolved: what SQLite makes the names beside the file from.
+Result<std::string> full_path_of(const std::string& path) {
     sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
     std::string full_path(static_cast<std::size_t>(vfs->mxPathname) + 1, '\0');
-    int result = vfs->xFullPathname(
+    const int result = vfs->xFullPathname(
         vfs, path.c_str(), static_cast<int>(full_path.size()), full_path.data());
     // The low byte: SQLITE_OK_SYMLINK is a success too.
     if ((result & 0xff) != SQLITE_OK) {
         return Error{ErrorCode::kIo, path + ": " + sqlite3_errstr(result)};
     }
+    full_path.resize(std::strlen(full_path.c_str()));
+    return full_path;
+}
+
+// A loss of power in the middle of the very first transaction may leave pages in the file
+// and the first one empty. Its journal then says that there was nothing before, and SQLite
+// takes the file back to that. (The journal carries no locks: see read_header.)
+bool is_unfinished_creation(const Header& header, const std::string& full_path) {
+    constexpr std::string_view kJournalMagic("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
+    constexpr std::size_t kPagesBeforeAt = 16;
+    const auto is_zero = [](auto byte) { return byte == 0; };
+    if (!std::all_of(header.begin(), header.end(), is_zero)) return false;
+
+    std::array<char, kPagesBeforeAt + 4> journal{};
+    std::ifstream stream(full_path + "-journal", std::ios::binary);
+    if (!stream.read(journal.data(), journal.size())) return false;
+    return std::memcmp(journal.data(), kJournalMagic.data(), kJournalMagic.size()) == 0 &&
+           std::all_of(journal.begin() + kPagesBeforeAt, journal.end(), is_zero);
+}
+
+// Through SQLite's own file layer, never open() and close(): closing any descriptor of a
+// file drops every POSIX lock that this process holds on it, those of its open connections
+// too, and another process could then delete the -wal under them. SQLite's layer puts off
+// the close until those locks are gone.
+Result<Header> read_header(const std::string& path, const std::string& full_path) {
+    sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
     struct FreeName {
         void operator()(const char* name) const { sqlite3_free_filename(name); }
     };
@@ -63,7 +88,7 @@ Result<Header> read_header(const std::string& path) {
     if (file == nullptr) throw std::bad_alloc();
     std::memset(file.get(), 0, static_cast<std::size_t>(vfs->szOsFile));
 
-    result = vfs->xOpen(
+    int result = vfs->xOpen(
         vfs, name.get(), file.get(), SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr);
     if (result != SQLITE_OK) {
         const int number = vfs->xGetLastError(vfs, 0, nullptr);
@@ -94,8 +119,11 @@ Result<FilePresence> inspect_file(const std::string& path, int newest) {
     }
     if (status.st_size == 0) return FilePresence::kAbsent;
 
-    const Result<Header> header = read_header(path);
+    const Result<std::string> full_path = full_path_of(path);
+    if (!full_path) return full_path.error();
+    const Result<Header> header = read_header(path, *full_path);
     if (!header) return header.error();
+    if (is_unfinished_creation(*header, *full_path)) return FilePresence::kAbsent;
     if (std::memcmp(header->data(), kMagic.data(), kMagic.size()) != 0) {
         return Error{ErrorCode::kNotADatabase, path + ": not a Haarmony database"};
     }

@@ -15,8 +15,8 @@ namespace haarmony::schema {
 
 enum class FilePresence { kAbsent, kOurs };
 
-// Whether `path` is absent (a file of no bytes counts as absent) or a database of ours that
-// version `newest` of the schema may open. The -wal beside the file may hold a newer
+// Whether `path` is absent (so counts a file without bytes, or one whose first transaction
+// was cut off) or a database of ours that version `newest` of the schema may open. The -wal beside the file may hold a newer
 // header: stored_version() in migrate.h looks again through SQLite.
 [[nodiscard]] Result<FilePresence> inspect_file(const std::string& path, int newest);
 

@@ -267,11 +267,19 @@ TEST_F(ChangeSequence, AFollowerOfTwoWritersEndsWithWhatTheTableHolds) {
             EXPECT_EQ(done.has_value(), keep);
             if (keep) mine.insert(mine.end(), added.begin(), added.end());
         }
-        --running;
     };
 
-    std::thread first(write, 1);
-    std::thread second(write, 2);
+    // An exception must not leave a thread: it becomes a failure of the test.
+    const auto guarded = [&](int writer) {
+        try {
+            write(writer);
+        } catch (const std::exception& failure) {
+            ADD_FAILURE() << failure.what();
+        }
+        --running;
+    };
+    std::thread first(guarded, 1);
+    std::thread second(guarded, 2);
     Follower follower(store_);
     std::int64_t version = -1;
     while (running > 0) {
@@ -291,7 +299,10 @@ TEST_F(ChangeSequence, AFollowerOfTwoWritersEndsWithWhatTheTableHolds) {
 }
 
 TEST_F(ChangeSequence, PollingReadsTheEndOfTheSequenceOnly) {
-    for (int i = 0; i < 2000; ++i) expect(store_.add(file_picture(i)));
+    expect(store_.transaction([&]() -> Result<void> {
+        for (int i = 0; i < 2000; ++i) expect(store_.add(file_picture(i)));
+        return {};
+    }));
     const auto sequence = last();
     EXPECT_THAT(after(sequence - 1), ElementsAre(2000));
     sqlite3_stmt* statement = nullptr;

@@ -146,13 +146,10 @@ TEST_F(ImageReads, AsManyTagsAsAllowedWorkAndOneMoreIsNamed) {
 }
 
 TEST_F(ImageReads, ARareTagIsFoundThroughItsIndexAndNotByReadingEveryPicture) {
-    EXPECT_NE(
-        sql_text(database_.handle(),
-                 "EXPLAIN QUERY PLAN SELECT leading.image_id FROM image_tags AS"
-                 " leading WHERE tag = 'x' AND image_id > 5 ORDER BY image_id LIMIT 9")
-            .size(),
-        0u);
-    for (int i = 0; i < 2000; ++i) static_cast<void>(add_tagged(i, {"all"}));
+    expect(store_.transaction([&]() -> Result<void> {
+        for (int i = 0; i < 2000; ++i) static_cast<void>(add_tagged(i, {"all"}));
+        return {};
+    }));
     const ImageId rare = add_tagged(5000, {"all", "rare"});
     sqlite3_stmt* statement = nullptr;
     EXPECT_THAT(listed({.limit = 5, .after = std::nullopt, .tags = {"rare", "all"}}),

@@ -69,6 +69,20 @@ TEST(Refusal, AnotherProgramsDatabaseInUseStaysUntouched) {
     expect_refused(folder, "browser.db", ErrorCode::kNotADatabase, "another program");
 }
 
+TEST(Refusal, AJournalBesideOtherBytesDoesNotMakeThemOurs) {
+    const ScratchFolder folder;
+    const std::string magic("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
+    write_bytes(folder.file("notes.txt"), std::string(4096, 'n'));
+    write_bytes(folder.file("notes.txt-journal"), magic + std::string(504, '\0'));
+    expect_refused(folder, "notes.txt", ErrorCode::kNotADatabase);
+    // Zeros, but the journal speaks of pages that were there before.
+    write_bytes(folder.file("zeros"), std::string(4096, '\0'));
+    write_bytes(folder.file("zeros-journal"),
+                magic + std::string(8, '\0') + std::string("\0\0\0\x05", 4) +
+                    std::string(492, '\0'));
+    expect_refused(folder, "zeros", ErrorCode::kNotADatabase);
+}
+
 TEST(Refusal, ANewerVersionStaysUntouchedAndBothVersionsAreNamed) {
     const ScratchFolder folder;
     { const Database ours = open_database(folder.file("new.db")); }
