@@ -1,0 +1,181 @@
+#include "engine/image/signature.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tests/engine/image/pictures.h"
+
+namespace haarmony::image {
+namespace {
+
+// One channel of YIQ over a 128 x 128 picture, from the matrix, in double precision.
+std::vector<double> channel_of(const Pixels& picture, int channel) {
+    constexpr double kMatrix[3][3] = {{0.299, 0.587, 0.114},
+                                      {0.595716, -0.274453, -0.321263},
+                                      {0.211456, -0.522591, 0.311135}};
+    std::vector<double> plane;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            double value = 0;
+            for (int c = 0; c < 3; ++c) {
+                value += kMatrix[channel][c] * picture.at(x, y, c) / 255.0;
+            }
+            plane.push_back(value);
+        }
+    }
+    return plane;
+}
+
+// The orthonormal decomposition, rows and then columns, unscaled means apart.
+void decompose_rows(std::vector<double>& plane) {
+    for (int y = 0; y < kSide; ++y) {
+        double* row = plane.data() + y * kSide;
+        for (int h = kSide / 2; h > 0; h /= 2) {
+            std::vector<double> next(row, row + 2 * h);
+            for (int i = 0; i < h; ++i) {
+                next[i] = (row[2 * i] + row[2 * i + 1]) / std::sqrt(2.0);
+                next[h + i] = (row[2 * i] - row[2 * i + 1]) / std::sqrt(2.0);
+            }
+            std::copy(next.begin(), next.end(), row);
+        }
+    }
+}
+
+std::vector<double> transposed(const std::vector<double>& plane) {
+    std::vector<double> result(plane.size());
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) result[x * kSide + y] = plane[y * kSide + x];
+    }
+    return result;
+}
+
+TEST(Signature, AgreesWithTheDefinitionInDoublePrecision) {
+    const Pixels picture = scene(kSide, kSide, 41);
+    const Signature signature = make_signature(picture.view());
+    for (int c = 0; c < kChannels; ++c) {
+        std::vector<double> coefficients = channel_of(picture, c);
+        decompose_rows(coefficients);
+        coefficients = transposed(coefficients);
+        decompose_rows(coefficients);
+        coefficients = transposed(coefficients);
+        for (double& value : coefficients) value /= kSide;
+
+        const ChannelSignature& channel = signature.channels[c];
+        // A mean of 14 additions in float.
+        EXPECT_NEAR(channel.average / double(kAverageOne), coefficients[0], 1e-6);
+        ASSERT_EQ(channel.count, kMaxCoefficients);
+        std::vector<double> magnitudes;
+        for (int i = 1; i < kCoefficientCount; ++i) {
+            magnitudes.push_back(std::fabs(coefficients[i]));
+        }
+        std::ranges::sort(magnitudes, std::greater<>());
+        for (int rank = 0; rank < channel.count; ++rank) {
+            const int index = channel.indices[rank];
+            const double value = coefficients[std::abs(index)];
+            // Ranks may differ from the oracle's only where magnitudes are equal in float.
+            ASSERT_NEAR(std::fabs(value), magnitudes[rank], 1e-6) << "rank " << rank;
+            ASSERT_EQ(index > 0, value > 0) << "rank " << rank;
+        }
+    }
+}
+
+TEST(Signature, OfAFlatPictureOfAnySizeIsItsColorAlone) {
+    const Signature expected = make_signature(flat(1, 1, {10, 200, 90}).view());
+    for (const auto& [width, height] :
+         {std::pair(3, 1), {128, 128}, {131, 77}, {640, 2}}) {
+        const Signature signature =
+            make_signature(flat(width, height, {10, 200, 90}).view());
+        EXPECT_EQ(signature, expected) << width << " x " << height;
+        EXPECT_TRUE(signature.low_information);
+        for (const ChannelSignature& channel : signature.channels) {
+            EXPECT_EQ(channel.count, 0);
+        }
+    }
+}
+
+TEST(Signature, OfGreyHasNoChroma) {
+    for (const int channels : {1, 3}) {
+        Pixels picture = noise(200, 150, channels, 42);
+        if (channels == 3) {
+            for (std::size_t i = 0; i < picture.bytes.size(); i += 3) {
+                picture.bytes[i + 1] = picture.bytes[i + 2] = picture.bytes[i];
+            }
+        }
+        const Signature signature = make_signature(picture.view());
+        EXPECT_EQ(signature.channels[0].count, kMaxCoefficients);
+        for (const int chroma : {1, 2}) {
+            EXPECT_EQ(signature.channels[chroma].count, 0);
+            EXPECT_EQ(signature.channels[chroma].average, 0);
+        }
+    }
+}
+
+TEST(Signature, OfAMagnifiedPictureIsTheSame) {
+    const Pixels picture = scene(128, 128, 43);
+    Pixels magnified = flat(384, 256, {0, 0, 0});
+    for (int y = 0; y < magnified.height; ++y) {
+        for (int x = 0; x < magnified.width; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                magnified.at(x, y, c) = picture.at(x / 3, y / 2, c);
+            }
+        }
+    }
+    EXPECT_EQ(make_signature(magnified.view()), make_signature(picture.view()));
+}
+
+TEST(Signature, BlackIsAPictureLikeAnyOther) {
+    const Signature black = make_signature(flat(4, 4, {0, 0, 0}).view());
+    EXPECT_EQ(black, make_signature(flat(4, 4, {9, 9, 9, 0}).view()));
+    for (const ChannelSignature& channel : black.channels) EXPECT_EQ(channel.average, 0);
+}
+
+// Half of the cells one level above the other half deviate by half a level; a checkerboard
+// of 0 and 3 levels by one and a half.
+TEST(Signature, LowInformationIsADeviationBelowOneLevel) {
+    Pixels picture = flat(kSide, kSide, {100});
+    for (const int step : {1, 3}) {
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                picture.at(x, y, 0) =
+                    static_cast<std::uint8_t>(100 + ((x + y) % 2 == 0 ? step : 0));
+            }
+        }
+        const Signature signature = make_signature(picture.view());
+        EXPECT_EQ(signature.low_information, step == 1) << step;
+        EXPECT_GT(signature.channels[0].count, 0);
+    }
+}
+
+TEST(Signature, ChannelsAreEqualWhateverLiesBeyondTheCount) {
+    ChannelSignature a;
+    ChannelSignature b;
+    a.count = b.count = 1;
+    a.indices[0] = b.indices[0] = 5;
+    b.indices[1] = 9;
+    EXPECT_EQ(a, b);
+    b.indices[0] = -5;
+    EXPECT_NE(a, b);
+    b.indices[0] = 5;
+    b.count = 2;
+    EXPECT_NE(a, b);
+    a.count = 2;
+    a.indices[1] = 9;
+    EXPECT_EQ(a, b);
+    a.average = 1;
+    EXPECT_NE(a, b);
+}
+
+TEST(Signature, LargestGivesNoMoreThanThereAre) {
+    ChannelSignature channel;
+    channel.count = 3;
+    EXPECT_EQ(channel.largest(0).size(), 0U);
+    EXPECT_EQ(channel.largest(2).size(), 2U);
+    EXPECT_EQ(channel.largest(100).size(), 3U);
+}
+
+}  // namespace
+}  // namespace haarmony::image
