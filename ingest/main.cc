@@ -1,0 +1,96 @@
+// haarmony-ingest: see `--help`.
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <vector>
+
+#include "ingest/catalogue.h"
+#include "ingest/command_line.h"
+#include "ingest/pipeline.h"
+#include "ingest/progress.h"
+
+namespace {
+
+using namespace haarmony;
+
+enum ExitCode { kAllWell = 0, kSomeFailed = 1, kUsage = 2, kCouldNotRun = 3 };
+constexpr int kSignalled = 128;  // plus the signal's number, as shells report it
+
+std::atomic<bool> stop = false;
+std::atomic<int> caught_signal = 0;
+static_assert(std::atomic<bool>::is_always_lock_free &&
+                  std::atomic<int>::is_always_lock_free,
+              "a signal handler sets them");
+
+void request_stop(int signal) {
+    caught_signal = signal;
+    stop = true;
+}
+
+void install_signal_handlers() {
+    struct sigaction action {};
+    action.sa_handler = request_stop;
+    // The second Ctrl-C meets the default again and ends the process at once.
+    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+    // A reader of our output that has gone away, or a full quota, is an error of the one
+    // write, not the end of the run.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+int terminal_columns() {
+    constexpr int kUsual = 80;
+    winsize size{};
+    return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col
+                                                                             : kUsual;
+}
+
+int exit_code(const ingest::Report& report) {
+    if (!report.outcome) return kCouldNotRun;
+    if (report.stopped) return kSignalled + caught_signal;
+    if (report.paths_reached == 0) return kCouldNotRun;
+    return report.tally.failed > 0 ? kSomeFailed : kAllWell;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Result<ingest::CommandLine> line =
+        ingest::parse_command_line(std::vector<std::string>(argv + 1, argv + argc));
+    if (!line) {
+        std::cerr << "haarmony-ingest: " << line.error().message
+                  << "\nRun haarmony-ingest --help for its options.\n";
+        return kUsage;
+    }
+    if (!line->answer.empty()) {
+        std::cout << line->answer;
+        return kAllWell;
+    }
+    install_signal_handlers();
+
+    const auto fail = [&line](const Error& error) {
+        std::cerr << "haarmony-ingest: " << ingest::printable_line(line->database) << ": "
+                  << ingest::printable_line(error.message) << '\n';
+    };
+    auto catalogue = ingest::StoredCatalogue::open(line->database);
+    if (!catalogue) {
+        fail(catalogue.error());
+        return kCouldNotRun;
+    }
+    line->pipeline.walk.own_files = ingest::database_files(line->database);
+    const ingest::ProgressMode mode = line->progress.value_or(
+        ::isatty(STDOUT_FILENO) != 0 ? ingest::ProgressMode::kBar
+                                     : ingest::ProgressMode::kPlain);
+    line->pipeline.count_ahead = mode != ingest::ProgressMode::kNone;
+
+    ingest::Progress progress(
+        mode, terminal_columns(), std::cout, std::cerr, ingest::Progress::Clock::now);
+    const ingest::Report report = ingest::run(
+        line->pipeline, **catalogue, ingest::make_picture_steps, progress, stop);
+    progress.done(report.tally);
+    if (!report.outcome) fail(report.outcome.error());
+    return exit_code(report);
+}

@@ -1,0 +1,67 @@
+// The whole of ingest: one walker, several workers, one writer, bounded queues between.
+//   walk -> [read, compare, describe] x jobs -> batches of rows
+//
+// What is committed when the process dies stays; the rest is found again by the next run,
+// because a file is known only by its committed row. Nothing else is kept on disk.
+//
+// Scale   memory: the queues, one batch, one folder's names, and file_bytes for the bytes
+//         of files (one file alone may be as large as max_file_bytes).
+// Errors  Report::outcome: the catalogue's. Files and folders that fail are reported to the
+//         observer and counted; they never end the run.
+// Threads run() starts its own threads and returns when they have ended; the calling thread
+//         is the writer. `stop` may be set from anywhere, a signal handler too: no more
+//         files are taken, what has been described is committed, nothing is pruned.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "ingest/catalogue.h"
+#include "ingest/tally.h"
+#include "ingest/walk.h"
+#include "ingest/writer.h"
+
+namespace haarmony::ingest {
+
+// The steps from bytes to a row. Each worker makes its own, so that a decoder is never
+// shared. Errors of `describe` become the file's reason of failure.
+struct PictureSteps {
+    std::function<Result<schema::NewImage>(std::span<const std::uint8_t>)> describe;
+    std::function<std::string(std::span<const std::uint8_t>)> content_hash;
+};
+using MakePictureSteps = std::function<PictureSteps()>;
+
+// The real ones: decode.h, describe.h.
+[[nodiscard]] PictureSteps make_picture_steps();
+
+struct PipelineOptions {
+    std::vector<std::string> paths = {};
+    WalkOptions walk = {};
+    int jobs = 1;  // >= 1
+    bool prune = false;
+    bool restore = false;
+    bool count_ahead = false;  // a second walk tells the observer how many there will be
+    std::int64_t max_file_bytes = std::int64_t{1} << 30;
+    std::int64_t file_bytes = std::int64_t{1} << 30;
+};
+
+struct Report {
+    Tally tally;
+    std::size_t paths_reached = 0;  // PATHs that could be used
+    bool stopped = false;           // `stop` was set: perhaps before everything was done
+    Result<void> outcome;
+};
+
+[[nodiscard]] Report run(const PipelineOptions& options,
+                         Catalogue& catalogue,
+                         const MakePictureSteps& make_steps,
+                         Observer& observer,
+                         const std::atomic<bool>& stop);
+
+}  // namespace haarmony::ingest

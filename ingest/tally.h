@@ -1,0 +1,32 @@
+// What became of the files of one run.
+//
+// Scale   seen = added + updated + skipped + (failed files). `failed` is the number of
+//         failures reported: files, folders that could not be read, PATHs of no use. Only
+//         what is committed is counted.
+#pragma once
+
+#include <cstdint>
+
+namespace haarmony::ingest {
+
+struct Tally {
+    std::int64_t seen = 0;
+    std::int64_t added = 0;
+    std::int64_t updated = 0;
+    std::int64_t skipped = 0;
+    std::int64_t failed = 0;
+    std::int64_t pruned = 0;
+
+    friend bool operator==(const Tally&, const Tally&) = default;
+    Tally& operator+=(const Tally& more) {
+        seen += more.seen;
+        added += more.added;
+        updated += more.updated;
+        skipped += more.skipped;
+        failed += more.failed;
+        pruned += more.pruned;
+        return *this;
+    }
+};
+
+}  // namespace haarmony::ingest
