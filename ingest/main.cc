@@ -48,6 +48,10 @@ int terminal_columns() {
                                                                              : kUsual;
 }
 
+void complain(const Error& error) {
+    std::cerr << "haarmony-ingest: " << ingest::printable_line(error.message) << '\n';
+}
+
 int exit_code(const ingest::Report& report) {
     if (!report.outcome) return kCouldNotRun;
     if (report.stopped) return kSignalled + caught_signal;
@@ -71,13 +75,9 @@ int main(int argc, char** argv) {
     }
     install_signal_handlers();
 
-    const auto fail = [&line](const Error& error) {
-        std::cerr << "haarmony-ingest: " << ingest::printable_line(line->database) << ": "
-                  << ingest::printable_line(error.message) << '\n';
-    };
     auto catalogue = ingest::StoredCatalogue::open(line->database);
     if (!catalogue) {
-        fail(catalogue.error());
+        complain(catalogue.error());
         return kCouldNotRun;
     }
     line->pipeline.walk.own_files = ingest::database_files(line->database);
@@ -91,6 +91,6 @@ int main(int argc, char** argv) {
     const ingest::Report report = ingest::run(
         line->pipeline, **catalogue, ingest::make_picture_steps, progress, stop);
     progress.done(report.tally);
-    if (!report.outcome) fail(report.outcome.error());
+    if (!report.outcome) complain(report.outcome.error());
     return exit_code(report);
 }

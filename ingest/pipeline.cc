@@ -70,8 +70,10 @@ std::optional<Reading> read_and_describe(const Job& job,
     }
     Result<schema::NewImage> image = steps.describe(bytes);
     if (!image) {
+        // A failed row always has a reason, even where a foreign decoder gives none.
+        const std::string& reason = image.error().message;
         return Undecodable{stamp_of(content->look, started_ns, steps.content_hash(bytes)),
-                           image.error().message};
+                           reason.empty() ? "cannot be decoded" : reason};
     }
     image->origin = schema::ImageOrigin::kFile;
     image->uri = job.uri;

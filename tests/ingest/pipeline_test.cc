@@ -258,6 +258,13 @@ TEST_F(PipelineTest, FailuresNameThePathAndTheReasonEveryTime) {
     EXPECT_EQ(row("bad.png").known.id, ImageId{1});
 }
 
+TEST_F(PipelineTest, AFailureWithoutAReasonIsGivenOne) {
+    const std::string bad = folder_.write("bad.png", "bad and silent");
+    ASSERT_TRUE(ingest().outcome);
+    EXPECT_THAT(observer_.failures, ElementsAre(bad + ": cannot be decoded"));
+    EXPECT_EQ(row("bad.png").failure, "cannot be decoded");
+}
+
 TEST_F(PipelineTest, APathThatIsMissingIsAFailureBesideTheOthers) {
     folder_.write("a.png", "a");
     options_.paths = {folder_ / "gone", folder_.path()};
@@ -354,7 +361,7 @@ TEST_F(PipelineTest, AFailureOfAnyLookupEndsTheRunWithItsReason) {
 }
 
 TEST_F(PipelineTest, StoppingCommitsWhatIsDescribedAndTakesNoMore) {
-    constexpr int kFiles = 2000;
+    constexpr int kFiles = 700;
     for (int i = 0; i < kFiles; ++i) folder_.write(std::to_string(i) + ".png", "x");
     constexpr int kEnough = 10;
     pictures_.while_describing = [&](const std::string&) {

@@ -335,7 +335,7 @@ class DeepTree {
 
 TEST(Walk, DeepTreesNeedNoStackAndNoManyDescriptors) {
     const ScratchFolder folder;
-    const DeepTree tree(folder, 1500, "d");
+    const DeepTree tree(folder, 1100, "d");
     EXPECT_THAT(walk_all({folder.path()}).files, ElementsAre(tree.file()));
 }
 
