@@ -1,0 +1,41 @@
+// A database connection with the store that speaks through it.
+//
+// Threads  one thread at a time: readers borrow from a ReadConnections pool, the one
+//          writer is shared under a mutex (image_service.cc).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "engine/core/result.h"
+#include "schema/database.h"
+#include "schema/image_store.h"
+#include "server/app/lending_pool.h"
+
+namespace haarmony::server {
+
+class Connection {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<Connection>> open(
+        const std::string& path, schema::Database::Mode mode) {
+        Result<schema::Database> database = schema::Database::open(path, mode);
+        if (!database) return std::move(database).error();
+        return std::unique_ptr<Connection>(
+            new Connection(std::move(database).value()));
+    }
+
+    [[nodiscard]] schema::Database& database() { return database_; }
+    [[nodiscard]] schema::ImageStore& images() { return images_; }
+
+  private:
+    explicit Connection(schema::Database database)
+        : database_(std::move(database)), images_(database_) {}
+
+    schema::Database database_;
+    schema::ImageStore images_;
+};
+
+using ReadConnections = LendingPool<Connection>;
+
+}  // namespace haarmony::server

@@ -1,0 +1,114 @@
+// All that the daemon can do with pictures, without HTTP: the database, the index that
+// follows it, and the decoders behind one interface.
+//
+//   server/api -> [image_service] -> index_follower, image_search, picture_reader
+//
+// A write is visible to the next search and the next read when it returns.
+//
+// Errors   the stores' and the decoder's; kUnavailable from search() until ready().
+// Threads  every member from any thread. Reads borrow a connection each, writes follow one
+//          another on one; nothing is locked while decoding or scoring.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/image/profile.h"
+#include "engine/image/signature.h"
+#include "ingest/decode.h"
+#include "schema/image_store.h"
+#include "server/app/connection.h"
+#include "server/app/image_search.h"
+#include "server/app/index_follower.h"
+#include "server/app/picture_reader.h"
+
+namespace haarmony::server {
+
+struct ImageServiceOptions {
+    std::string database_path;
+    int index_m = 60;
+    std::chrono::milliseconds poll_interval{25};
+    ingest::DecodeLimits decode;
+};
+
+struct SearchOptions {
+    image::Profile profile;
+    std::optional<int> m;  // the profile's where absent
+    int limit = 20;
+    std::optional<double> min_similarity;
+};
+
+struct SearchAnswer {
+    Found found;
+    int m = 0;  // that was used: never above the index's
+};
+
+// What a client says about a picture, beside its pixels.
+struct ImageAttributes {
+    std::string uri;
+    std::vector<std::string> tags;
+    std::string metadata = "{}";
+};
+
+struct ServiceStatus {
+    schema::Counts rows;
+    image::IndexStats index;
+    std::int64_t sequence = 0;
+    std::int64_t damaged = 0;
+    int index_m = 0;
+    bool ready = false;
+};
+
+class ImageService {
+  public:
+    // Creates or migrates the database and starts to load it.
+    [[nodiscard]] static Result<std::unique_ptr<ImageService>> open(
+        const ImageServiceOptions& options);
+
+    [[nodiscard]] bool ready() const { return follower_->ready(); }
+    [[nodiscard]] Result<ServiceStatus> status();
+
+    [[nodiscard]] PictureReader& pictures() { return pictures_; }
+
+    [[nodiscard]] Result<SearchAnswer> search(const image::Signature& signature,
+                                              const SearchOptions& options);
+
+    [[nodiscard]] Result<ImageId> add(std::span<const std::uint8_t> picture,
+                                      const ImageAttributes& attributes);
+    [[nodiscard]] Result<void> remove(ImageId id);
+
+    [[nodiscard]] Result<schema::Image> get(ImageId id);
+    [[nodiscard]] Result<std::vector<schema::Image>> list(
+        const schema::ListOptions& options);
+    // kUndecodable where the stored bytes are damaged.
+    [[nodiscard]] Result<image::Signature> signature(ImageId id);
+    [[nodiscard]] Result<schema::Thumbnail> thumbnail(ImageId id);
+
+    // Ends the background threads; the index answers as it is.
+    void stop();
+
+  private:
+    ImageService(const ImageServiceOptions& options,
+                 std::unique_ptr<Connection> writer,
+                 std::unique_ptr<IndexFollower> follower);
+
+    // Runs `work` alone on the writing connection and brings the index up to it.
+    template <typename Work>
+    auto write(Work&& work);
+    template <typename Work>
+    auto read(Work&& work);
+
+    std::mutex writer_mutex_;  // guards writer_
+    std::unique_ptr<Connection> writer_;
+    ReadConnections readers_;
+    std::unique_ptr<IndexFollower> follower_;
+    PictureReader pictures_;
+};
+
+}  // namespace haarmony::server

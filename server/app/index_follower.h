@@ -1,0 +1,98 @@
+// Keeps the search index equal to the database, whoever writes to it:
+//   SQLite (the truth) -> [index_follower] -> image::Index (a view of it)
+//
+// A thread loads every signature, then polls for commits of other connections and applies
+// the changes in batches; a second thread merges segments. A stored signature that does not
+// decode is logged, counted and left out, never fatal.
+//
+// Errors   start() fails where the database cannot be opened; a failure later is logged and
+//          tried again at the next poll.
+// Threads  every member may be called from any thread; no lock is held while searching a
+//          snapshot or merging.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "engine/core/result.h"
+#include "engine/image/index.h"
+#include "server/app/connection.h"
+
+namespace haarmony::server {
+
+struct FollowerOptions {
+    std::string database_path;
+    image::IndexOptions index;
+    std::chrono::milliseconds poll_interval{25};
+};
+
+class IndexFollower {
+  public:
+    // The database must exist. Loading goes on in the background: see ready().
+    [[nodiscard]] static Result<std::unique_ptr<IndexFollower>> start(
+        const FollowerOptions& options);
+    ~IndexFollower();
+    IndexFollower(const IndexFollower&) = delete;
+    IndexFollower& operator=(const IndexFollower&) = delete;
+
+    // Whether the whole collection has been loaded.
+    [[nodiscard]] bool ready() const { return ready_; }
+    [[nodiscard]] std::shared_ptr<const image::IndexSnapshot> snapshot() const;
+    [[nodiscard]] int index_m() const;
+    // The last change that the index contains, and how many stored signatures it lacks
+    // because they are damaged.
+    [[nodiscard]] std::int64_t sequence() const { return sequence_; }
+    [[nodiscard]] std::int64_t damaged() const { return damaged_count_; }
+
+    // Applies what was committed before the call, so that the writer who committed it finds
+    // it. Before ready() it does nothing: loading ends with the same step.
+    [[nodiscard]] Result<void> catch_up();
+
+    // Ends both threads; the index stays as it is.
+    void stop();
+
+  private:
+    IndexFollower(const FollowerOptions& options, std::unique_ptr<Connection> connection);
+
+    void follow();
+    void merge();
+    [[nodiscard]] Result<void> load();
+    [[nodiscard]] Result<void> poll();
+    [[nodiscard]] Result<void> apply_changes();
+    void note_damage(ImageId id, const std::string& reason);
+    void note_sound(ImageId id);
+    void wake_merger();
+    bool wait(std::chrono::milliseconds period);  // false: time to stop
+
+    const FollowerOptions options_;
+    image::Index index_;
+
+    // Guards connection_, damaged_ and the order of Index::apply. While loading, the
+    // follower's thread owns them without it: catch_up() looks at loaded_ first.
+    std::mutex apply_mutex_;
+    std::unique_ptr<Connection> connection_;
+    std::set<ImageId> damaged_;
+    bool loaded_ = false;
+    std::int64_t data_version_ = -1;  // of the last poll; SQLite's are never negative
+
+    std::atomic<std::int64_t> sequence_{0};
+    std::atomic<std::int64_t> damaged_count_{0};
+    std::atomic<bool> ready_{false};
+
+    std::mutex wake_mutex_;  // guards stopping_ and merge_due_
+    std::condition_variable wake_;
+    bool stopping_ = false;
+    bool merge_due_ = false;
+
+    std::thread follower_;
+    std::thread merger_;
+};
+
+}  // namespace haarmony::server

@@ -1,0 +1,38 @@
+// Which files of this machine may be handed out: those below the folders named by
+// --media-root, symbolic links resolved first.
+//
+// Errors  messages name no path of the disk: they go to clients.
+// Threads const-safe.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace haarmony::server {
+
+class MediaRoots {
+  public:
+    // kInvalidArgument naming the folder (this one goes to the operator) that is none.
+    [[nodiscard]] static Result<MediaRoots> open(std::span<const std::string> folders);
+
+    // The real path of the regular file that a file:// address names. kForbidden where it
+    // lies, or would lie, outside every root; kNotFound where the address names no file of
+    // this machine or the file is gone.
+    [[nodiscard]] Result<std::string> locate(std::string_view uri) const;
+
+  private:
+    [[nodiscard]] bool contain(const std::string& path) const;
+
+    std::vector<std::string> roots_;  // real paths
+};
+
+// The path in "file:///a%20b" or "file://localhost/a%20b"; nothing for another scheme or
+// host, a broken escape, or a zero byte.
+[[nodiscard]] std::optional<std::string> path_of_file_uri(std::string_view uri);
+
+}  // namespace haarmony::server
