@@ -18,11 +18,11 @@ namespace haarmony::server {
 class Connection {
   public:
     [[nodiscard]] static Result<std::unique_ptr<Connection>> open(
-        const std::string& path, schema::Database::Mode mode) {
+        const std::string& path,
+        schema::Database::Mode mode) {
         Result<schema::Database> database = schema::Database::open(path, mode);
         if (!database) return std::move(database).error();
-        return std::unique_ptr<Connection>(
-            new Connection(std::move(database).value()));
+        return std::unique_ptr<Connection>(new Connection(std::move(database).value()));
     }
 
     [[nodiscard]] schema::Database& database() { return database_; }

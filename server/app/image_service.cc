@@ -7,14 +7,27 @@
 
 #include "engine/image/query.h"
 #include "engine/image/signature_codec.h"
+#include "server/app/log_value.h"
 
 namespace haarmony::server {
+namespace {
+
+// What the client only sees as "the server could not answer".
+template <typename Answer>
+Answer logged(Answer answer) {
+    if (!answer && answer.error().code == ErrorCode::kIo)
+        spdlog::error("event=database_failed reason={}",
+                      log_value(answer.error().message));
+    return answer;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<ImageService>> ImageService::open(
     const ImageServiceOptions& options) {
     // The writer comes first: it creates and migrates what the readers expect.
-    auto writer = Connection::open(options.database_path,
-                                   schema::Database::Mode::kReadWriteCreate);
+    auto writer =
+        Connection::open(options.database_path, schema::Database::Mode::kReadWriteCreate);
     if (!writer) return std::move(writer).error();
     FollowerOptions follow;
     follow.database_path = options.database_path;
@@ -42,10 +55,10 @@ auto ImageService::write(Work&& work) {
         const std::lock_guard lock(writer_mutex_);
         return work(writer_->images());
     }();
-    if (!written) return written;
+    if (!written) return logged(std::move(written));
     // The write stands whatever happens here; the follower tries again by itself.
     if (const Result<void> seen = follower_->catch_up(); !seen)
-        spdlog::error("event=catch_up_failed reason=\"{}\"", seen.error().message);
+        spdlog::error("event=catch_up_failed reason={}", log_value(seen.error().message));
     return written;
 }
 
@@ -53,8 +66,8 @@ template <typename Work>
 auto ImageService::read(Work&& work) {
     using Answer = decltype(work(std::declval<schema::ImageStore&>()));
     auto connection = readers_.lend();
-    if (!connection) return Answer(connection.error());
-    return work((*connection)->images());
+    if (!connection) return logged(Answer(connection.error()));
+    return logged(work((*connection)->images()));
 }
 
 Result<ServiceStatus> ImageService::status() {
@@ -77,11 +90,8 @@ Result<SearchAnswer> ImageService::search(const image::Signature& signature,
         return Error{ErrorCode::kUnavailable, "the collection is still being loaded"};
     const int m = std::min(options.m.value_or(options.profile.m), follower_->index_m());
     const image::Query query = image::make_query(signature, options.profile, m);
-    Result<Found> found = search_images(*follower_->snapshot(),
-                                        query,
-                                        options.limit,
-                                        options.min_similarity,
-                                        readers_);
+    Result<Found> found = search_images(
+        *follower_->snapshot(), query, options.limit, options.min_similarity, readers_);
     if (!found) return std::move(found).error();
     return SearchAnswer{std::move(found).value(), m};
 }

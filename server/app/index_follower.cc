@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/image/signature_codec.h"
+#include "server/app/log_value.h"
 
 namespace haarmony::server {
 namespace {
@@ -63,8 +64,10 @@ void IndexFollower::follow() {
         Result<void> step = loaded_ ? Result<void>() : load();
         if (step) step = poll();
         if (!step && !failing)
-            spdlog::error("event=follow_failed reason=\"{}\"", step.error().message);
-        if (step && failing) spdlog::info("event=follow_recovered sequence={}", sequence());
+            spdlog::error("event=follow_failed reason={}",
+                          log_value(step.error().message));
+        if (step && failing)
+            spdlog::info("event=follow_recovered sequence={}", sequence());
         failing = !step;
         if (!wait(failing ? kRetryInterval : options_.poll_interval)) return;
     }
@@ -94,7 +97,8 @@ Result<void> IndexFollower::load() {
         index_.apply({}, loaded);
         return sequence.error();
     }
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+    const std::chrono::duration<double> elapsed =
+        std::chrono::steady_clock::now() - started;
     spdlog::info("event=loaded images={} damaged={} sequence={} seconds={:.3f}",
                  loaded.size(),
                  damaged(),
@@ -151,7 +155,8 @@ Result<void> IndexFollower::apply_changes() {
 void IndexFollower::note_damage(ImageId id, const std::string& reason) {
     if (!damaged_.insert(id).second) return;
     damaged_count_ = static_cast<std::int64_t>(damaged_.size());
-    spdlog::warn("event=damaged_signature id={} reason=\"{}\"", to_int(id), reason);
+    spdlog::warn(
+        "event=damaged_signature id={} reason={}", to_int(id), log_value(reason));
 }
 
 void IndexFollower::note_sound(ImageId id) {

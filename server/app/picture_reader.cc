@@ -49,8 +49,11 @@ image::Signature signature_of_pixels(const ImageView& picture, Mask mask) {
     if (mask == Mask::kAlpha || picture.channels != 4)
         return image::make_signature(picture);
     const std::vector<std::uint8_t> opaque = over_black(picture);
-    return image::make_signature(
-        {opaque.data(), picture.width, picture.height, 3, std::ptrdiff_t{3} * picture.width});
+    return image::make_signature({opaque.data(),
+                                  picture.width,
+                                  picture.height,
+                                  3,
+                                  std::ptrdiff_t{3} * picture.width});
 }
 
 }  // namespace haarmony::server

@@ -1,0 +1,75 @@
+#include "server/api/image_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace haarmony::server {
+namespace {
+
+using nlohmann::json;
+
+std::string_view name_of(schema::ImageState state) {
+    switch (state) {
+        case schema::ImageState::kIndexed:
+            return "indexed";
+        case schema::ImageState::kFailed:
+            return "failed";
+        case schema::ImageState::kDeleted:
+            return "deleted";
+    }
+    return "";
+}
+
+// What was stored as an object; rows written by others are shown empty where it is none.
+json metadata_of(const schema::Image& image) {
+    json metadata = json::parse(image.metadata, nullptr, false);
+    return metadata.is_object() ? metadata : json::object();
+}
+
+json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
+
+// What a match and a row have in common.
+json described(const schema::Image& image) {
+    return {{"id", to_int(image.id)},
+            {"uri", text_or_null(image.uri)},
+            {"width", image.width},
+            {"height", image.height},
+            {"thumbnail", image_address(image.id, "thumbnail")},
+            {"tags", image.tags},
+            {"metadata", metadata_of(image)}};
+}
+
+}  // namespace
+
+json image_json(const schema::Image& image) {
+    json members = described(image);
+    members["state"] = name_of(image.state);
+    members["origin"] = image.origin == schema::ImageOrigin::kFile ? "file" : "upload";
+    members["media_type"] = text_or_null(image.media_type);
+    members["bytes"] = image.stamp.size;
+    members["content_hash"] = text_or_null(image.stamp.content_hash);
+    members["low_information"] = image.low_information;
+    members["added_at"] = image.added_at;
+    members["updated_at"] = image.updated_at;
+    if (image.state == schema::ImageState::kFailed) {
+        members["failure"] = image.failure;
+        members["thumbnail"] = nullptr;
+    }
+    return members;
+}
+
+json match_json(const FoundImage& found, int rank) {
+    json members = described(found.image);
+    members["rank"] = rank;
+    members["distance"] = found.distance;
+    members["similarity"] = found.similarity;
+    members["orientation"] = "identity";
+    return members;
+}
+
+std::string image_address(ImageId id) { return "/images/" + std::to_string(to_int(id)); }
+
+std::string image_address(ImageId id, std::string_view part) {
+    return image_address(id) + "/" + std::string(part);
+}
+
+}  // namespace haarmony::server

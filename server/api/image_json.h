@@ -1,0 +1,23 @@
+// Pictures as the REST interface shows them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "schema/image_store.h"
+#include "server/app/image_search.h"
+
+namespace haarmony::server {
+
+// One row, as GET /images and GET /images/{id} give it.
+[[nodiscard]] nlohmann::json image_json(const schema::Image& image);
+
+// One match; `rank` from 1.
+[[nodiscard]] nlohmann::json match_json(const FoundImage& found, int rank);
+
+// "/images/12", and with a part "/images/12/thumbnail".
+[[nodiscard]] std::string image_address(ImageId id);
+[[nodiscard]] std::string image_address(ImageId id, std::string_view part);
+
+}  // namespace haarmony::server

@@ -1,0 +1,68 @@
+#include "server/api/routes.h"
+
+#include <array>
+#include <utility>
+
+#include "server/api/image_media.h"
+#include "server/api/image_upload.h"
+#include "server/api/images.h"
+#include "server/api/openapi.h"
+#include "server/api/query.h"
+#include "server/api/status.h"
+
+namespace haarmony::server {
+namespace {
+
+using http::Cost;
+
+// Costly is what may decode a picture; those wait in a queue of their own.
+constexpr std::array kRoutes{
+    Route{"POST", "/query", Cost::kCostly, Body::kPicture, false, post_query},
+    Route{"GET", "/query", Cost::kCheap, Body::kNone, false, get_query},
+    Route{"GET", "/images", Cost::kCheap, Body::kNone, false, list_images},
+    Route{"POST", "/images", Cost::kCostly, Body::kPicture, false, post_image},
+    Route{"GET", "/images/{id}", Cost::kCheap, Body::kNone, false, get_image},
+    Route{"DELETE", "/images/{id}", Cost::kCheap, Body::kNone, false, delete_image},
+    Route{"GET",
+          "/images/{id}/thumbnail",
+          Cost::kCheap,
+          Body::kNone,
+          false,
+          get_thumbnail},
+    Route{"GET", "/images/{id}/original", Cost::kCheap, Body::kNone, false, get_original},
+    Route{"GET",
+          "/images/{id}/signature",
+          Cost::kCheap,
+          Body::kNone,
+          false,
+          get_signature},
+    Route{"GET", "/images/{id}/similar", Cost::kCheap, Body::kNone, false, get_similar},
+    Route{"GET", "/healthz", Cost::kCheap, Body::kNone, true, get_health},
+    Route{"GET", "/readyz", Cost::kCheap, Body::kNone, true, get_readiness},
+    Route{"GET", "/status", Cost::kCheap, Body::kNone, false, get_status},
+    Route{"GET", "/version", Cost::kCheap, Body::kNone, false, get_version},
+    Route{"GET", "/openapi.json", Cost::kCheap, Body::kNone, false, get_openapi},
+};
+
+}  // namespace
+
+std::span<const Route> routes() { return kRoutes; }
+
+void add_routes(const Context& context, http::Router& router) {
+    for (const Route& route : kRoutes) {
+        http::RouteOptions options;
+        options.cost = route.cost;
+        options.body_limit = route.body == Body::kPicture ? context.max_body : 0;
+        options.open = route.open;
+        router.add(route.method,
+                   route.pattern,
+                   options,
+                   [&context, handler = route.handler](const http::Request& request) {
+                       Reply reply = handler(context, request);
+                       return reply ? *std::move(reply)
+                                    : http::to_response(reply.problem(), request);
+                   });
+    }
+}
+
+}  // namespace haarmony::server

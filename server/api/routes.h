@@ -1,0 +1,29 @@
+// The table of the REST interface: which function answers which address.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "server/api/context.h"
+#include "server/api/outcome.h"
+#include "server/http/router.h"
+
+namespace haarmony::server {
+
+enum class Body { kNone, kPicture };  // kPicture: up to Context::max_body
+
+struct Route {
+    std::string_view method;
+    std::string_view pattern;
+    http::Cost cost;
+    Body body;
+    bool open;  // needs no key
+    Reply (*handler)(const Context&, const http::Request&);
+};
+
+[[nodiscard]] std::span<const Route> routes();
+
+// Requires: `context` outlives the router.
+void add_routes(const Context& context, http::Router& router);
+
+}  // namespace haarmony::server
