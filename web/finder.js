@@ -22,8 +22,10 @@ import { counted, nameOf } from './wording.js';
  * @property {string} profile
  * @property {Asked} asked
  * @property {boolean} record whether the answer makes an entry in the history
+ * @property {string | null} kept data: address of the painting behind a signature of ours
  */
 
+const kPainting = 'painting';
 const kResults = 20;
 /** Side of the square that the painting is sent in: twice what a signature is made from would
     be wasted, half of it would blur it. */
@@ -78,15 +80,14 @@ export class Finder {
     return this.#query;
   }
 
-  /**
-   * @param {boolean} settled
-   * @param {boolean} [record]
-   */
-  painting(settled, record = true) {
+  /** @param {boolean} settled false in the middle of a stroke */
+  painting(settled) {
     const png = () => this.#painting.toPng(kQuerySide);
     const asked = { title: 'Like your painting', preview: null, shared: null };
     const profile = this.#profiles.painting;
-    this.#submit({ topic: 'painting', settled, source: { kind: 'painting', png }, profile, asked, record });
+    /** @type {Source} */
+    const source = { kind: 'painting', png };
+    this.#submit({ topic: kPainting, settled, source, profile, asked, record: true, kept: null });
   }
 
   /** @param {import('./api.js').Picture} picture */
@@ -120,7 +121,9 @@ export class Finder {
       shared: entry ? null : sentenceFor(byId),
     };
     const topic = entry?.topic ?? (byId ? `id:${shared.id}` : 'shared');
-    this.#submit({ topic, settled: true, source, profile: shared.profile, asked, record: false });
+    const kept = entry?.painting ?? null;
+    const { profile } = shared;
+    this.#submit({ topic, settled: true, source, profile, asked, record: false, kept });
   }
 
   /**
@@ -129,9 +132,13 @@ export class Finder {
    */
   compareAs(profile) {
     if (!this.#query) return;
-    const { kind } = this.#query.source;
-    this.#profiles[kind === 'painting' ? 'painting' : 'picture'] = profile;
+    this.#profiles[this.#query.topic === kPainting ? 'painting' : 'picture'] = profile;
     this.#submit({ ...this.#query, profile, settled: true, record: true });
+  }
+
+  /** @returns {string} the painting as an entry of the history keeps it */
+  keep() {
+    return this.#painting.toDataUrl(kKeptSide);
   }
 
   again() {
@@ -151,7 +158,7 @@ export class Finder {
    */
   #pictureQuery(topic, source, asked) {
     const profile = this.#profiles.picture;
-    this.#submit({ topic, settled: true, source, profile, asked, record: true });
+    this.#submit({ topic, settled: true, source, profile, asked, record: true, kept: null });
   }
 
   /** @param {Query} query */
@@ -171,7 +178,7 @@ export class Finder {
     if (reply.searched === 0) return this.#screens.show('empty');
     this.#screens.ask(query);
     this.#screens.answer(reply);
-    const { settled, record, source, asked, topic, profile } = query;
+    const { settled, record, source, asked, topic, profile, kept } = query;
     if (!settled) return;
     const [best] = reply.matches;
     this.#notices.announce(
@@ -183,7 +190,7 @@ export class Finder {
       source.kind === 'id'
         ? { id: source.id, profile }
         : { signature: reply.query.signature, profile };
-    const painting = source.kind === 'painting' ? this.#painting.toDataUrl(kKeptSide) : null;
+    const painting = source.kind === 'painting' ? this.keep() : kept;
     this.#journey.record(shared, { topic, title: asked.title, preview: asked.preview, painting });
   }
 

@@ -5,15 +5,19 @@ import { byId } from './dom.js';
 export class KeyDialog {
   #dialog = byId('key', HTMLDialogElement);
   #input = byId('key-input', HTMLInputElement);
-  #asked = false;
+  #declined = false;
 
-  /** @param {(key: string) => void} use */
-  constructor(use) {
+  /** @param {{use: (key: string) => void, decline: () => void}} port */
+  constructor({ use, decline }) {
     byId('key-form', HTMLFormElement).addEventListener('submit', () => {
       const key = this.#input.value.trim();
+      this.#declined = false;
       if (key !== '') use(key);
     });
     byId('key-cancel', HTMLButtonElement).addEventListener('click', () => this.#dialog.close());
+    this.#dialog.addEventListener('close', () => {
+      if (this.#declined) decline();
+    });
   }
 
   /** @param {boolean} refused whether there was a key already */
@@ -23,17 +27,17 @@ export class KeyDialog {
       ? 'The server does not know this key'
       : 'This server wants a key';
     this.#input.value = '';
+    this.#declined = true;
     this.#dialog.showModal();
-    this.#asked = true;
   }
 
-  /** Whether somebody has been asked and closed the dialog without a key that works. */
-  get asked() {
-    return this.#asked;
+  /** Whether somebody was asked and gave none: what runs by itself should not ask again. */
+  get declined() {
+    return this.#declined;
   }
 
-  /** A request with the key was answered. */
-  accepted() {
-    this.#asked = false;
+  /** Somebody tries again. */
+  forgive() {
+    this.#declined = false;
   }
 }

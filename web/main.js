@@ -49,11 +49,15 @@ const connection = new Connection(() => api.alive(), wallClock, Math.random);
 const journey = new Journey(arrive);
 const sampler = new Sampler((limit, cursor) => api.pictures(limit, cursor), Math.random);
 const live = byId('live', HTMLInputElement);
-const keyDialog = new KeyDialog((key) => {
-  api.key = key;
-  storeKey(sessionStorage, key);
-  void look();
-  finder.again();
+const keyDialog = new KeyDialog({
+  use: (key) => {
+    api.key = key;
+    storeKey(sessionStorage, key);
+    resume();
+  },
+  decline: () => {
+    screens.problem('This server wants a key', 'Without it nothing can be searched.', true);
+  },
 });
 const finder = new Finder({
   api,
@@ -70,7 +74,8 @@ const finder = new Finder({
 function find(/** @type {() => void} */ start) {
   example.abort();
   start();
-  byId('findings', HTMLElement).scrollIntoView({ block: 'nearest' });
+  const findings = byId('findings', HTMLElement);
+  if (findings.getBoundingClientRect().top < 0) findings.scrollIntoView();
 }
 
 // Painting searches.
@@ -124,12 +129,14 @@ byId('profile', HTMLFieldSetElement).addEventListener('change', (event) => {
   if (event.target instanceof HTMLInputElement) finder.compareAs(event.target.value);
 });
 
-byId('paint-over', HTMLButtonElement).addEventListener('click', async () => {
-  const image = byId('asked-picture', HTMLImageElement);
-  await image.decode();
-  easel.place(image, image.naturalWidth, image.naturalHeight);
-  byId('canvas', HTMLCanvasElement).focus();
-});
+byId('paint-over', HTMLButtonElement).addEventListener('click', () =>
+  attempt(async () => {
+    const image = byId('asked-picture', HTMLImageElement);
+    await image.decode();
+    easel.place(image, image.naturalWidth, image.naturalHeight);
+    byId('canvas', HTMLCanvasElement).focus();
+  }),
+);
 
 // The first screen.
 
@@ -196,7 +203,7 @@ function arrive(visit) {
 
 /** @param {string} kept data: address of the painting of that entry */
 async function restore(kept) {
-  if (!painting.empty && painting.toDataUrl(480) === kept) return;
+  if (!painting.empty && finder.keep() === kept) return;
   const image = new Image();
   image.src = kept;
   await image.decode();
@@ -226,20 +233,29 @@ async function look() {
   if (!document.hidden && !connection.lost) {
     await attempt(async () => {
       const { images } = await api.status();
-      keyDialog.accepted();
       screens.count(images);
-      const filled = known <= 0 && images > 0;
+      const filled = known === 0 && images > 0;
       known = images;
       if (images === 0 && screens.now === 'welcome') screens.show('empty');
       if (filled) {
         sampler.forget();
-        if (screens.now === 'empty') finder.query ? finder.again() : welcome();
-        else if (screens.now === 'welcome') welcome();
+        if (screens.now === 'empty') repeat();
       }
     });
   }
   const delay = screens.now === 'empty' ? kEmptyStatusMs : kStatusMs;
   statusTimer = window.setTimeout(() => void look(), delay);
+}
+
+/** Shows again what should be on the screen, now that the server answers. */
+function repeat() {
+  if (finder.query) finder.again();
+  else welcome();
+}
+
+function resume() {
+  void look();
+  repeat();
 }
 
 /** Runs what needs the server; where it is not there, or wants a key, says so. */
@@ -250,7 +266,7 @@ async function attempt(/** @type {() => Promise<void>} */ run) {
   } catch (error) {
     if (error instanceof Unreachable) connection.lose();
     else if (error instanceof KeyWanted) {
-      if (!keyDialog.asked) keyDialog.ask(api.key !== null);
+      if (!keyDialog.declined) keyDialog.ask(api.key !== null);
     } else notices.tell(error instanceof Error ? error.message : String(error));
   }
 }
@@ -261,11 +277,13 @@ connection.addEventListener('lost', () => {
 connection.addEventListener('back', () => {
   notices.clear();
   notices.tell('The server is back');
-  void look();
-  finder.again();
+  resume();
 });
 byId('banner-button', HTMLButtonElement).addEventListener('click', () => void connection.ask());
-byId('problem-button', HTMLButtonElement).addEventListener('click', () => finder.again());
+byId('problem-button', HTMLButtonElement).addEventListener('click', () => {
+  keyDialog.forgive();
+  repeat();
+});
 window.addEventListener('online', () => void connection.ask());
 document.addEventListener('visibilitychange', () => void look());
 

@@ -18,6 +18,8 @@ export class Screens {
   #loader;
   #results;
   #progressTimer = 0;
+  /** Whether there is a query to be shown above results or a problem. */
+  #asked = false;
 
   /**
    * @param {import('./pictures.js').PictureLoader} loader
@@ -39,7 +41,8 @@ export class Screens {
       byId(name, HTMLElement).hidden = name !== screen;
     }
     if (screen !== 'results') this.#results.hide();
-    byId('query', HTMLElement).hidden = screen === 'welcome' || screen === 'empty';
+    if (screen === 'welcome' || screen === 'empty') this.#asked = false;
+    byId('query', HTMLElement).hidden = !this.#asked;
   }
 
   /** @param {boolean} busy */
@@ -56,6 +59,7 @@ export class Screens {
    * @param {import('./finder.js').Query} query
    */
   ask({ asked, source, profile }) {
+    this.#asked = true;
     byId('findings-title', HTMLElement).textContent = asked.title;
     const picture = byId('asked-picture', HTMLImageElement);
     picture.hidden = asked.preview === null && source.kind !== 'id';
@@ -101,7 +105,7 @@ export class Screens {
   count(count) {
     byId('collection', HTMLElement).textContent = counted(count, 'picture', 'pictures');
     byId('welcome-count', HTMLElement).textContent =
-      count > 1 ? ` of ${counted(count, 'picture', 'pictures')}` : '';
+      count > 1 ? `all ${counted(count, 'picture', 'pictures')}` : 'every picture';
   }
 
   /**
