@@ -11,8 +11,8 @@
 #include "ingest/decoder_child.h"
 #include "ingest/dimensions.h"
 #include "ingest/jpeg.h"
-#include "ingest/oiio.h"
 #include "ingest/orientation.h"
+#include "ingest/png.h"
 #include "ingest/sniff.h"
 
 namespace haarmony::ingest {
@@ -79,8 +79,7 @@ Result<Picture> Decoder::decode(std::span<const std::uint8_t> bytes) {
 Result<Raster> Decoder::decode_raster(Format format,
                                       std::span<const std::uint8_t> bytes) {
     if (format == Format::kJpeg) return decode_jpeg(bytes, limits_.min_side);
-    if (format == Format::kPng)
-        return decode_oiio({format, bytes, -1}, limits_.max_pixels);
+    if (format == Format::kPng) return decode_png(bytes);
     if (!child_) {
         ChildOptions options;
         options.program = limits_.child_program.empty() ? find_decoder_program()

@@ -38,7 +38,7 @@ struct DecodeLimits {
     int child_seconds = 20;       // processor time a child may take for one picture
     int child_wall_seconds = 60;  // time by the clock before a child is killed
     std::int64_t child_bytes = std::int64_t{2} << 30;  // address space of a child
-    std::string child_program;  // empty: haarmony-decode beside us or in ../libexec
+    std::string child_program = {};  // empty: haarmony-decode beside us or in ../libexec
 };
 
 struct Picture {

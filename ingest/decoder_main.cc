@@ -124,9 +124,11 @@ int main(int argc, char** argv) {
         return 2;
     }
     if (!confine(address_space)) return 3;
-    while (const auto received = receive_request(kSocket)) {
+    while (auto received = receive_request(kSocket)) {
         if (!allow_seconds(received->request.cpu_seconds)) return 3;
-        if (!answer(decode(*received))) return 1;
+        const Result<Raster> result = decode(*received);
+        received->memory.reset();  // before the answer: nothing is held between pictures
+        if (!answer(result)) return 1;
     }
     return 0;
 }

@@ -89,13 +89,17 @@ Error describe_failure(CURL* handle,
                 "the file is larger than " + std::to_string(transfer.options.max_bytes) +
                     " bytes"};
     }
-    if (code == CURLE_UNSUPPORTED_PROTOCOL || code == CURLE_URL_MALFORMAT ||
-        code == CURLE_LOGIN_DENIED) {
+    long status = 0;
+    long connections = 0;
+    curl_easy_getinfo(handle, CURLINFO_RESPONSE_CODE, &status);
+    curl_easy_getinfo(handle, CURLINFO_NUM_CONNECTS, &connections);
+    // The same code tells of a server that speaks something else than HTTP.
+    const bool wrong_scheme =
+        code == CURLE_UNSUPPORTED_PROTOCOL && (connections == 0 || status != 0);
+    if (wrong_scheme || code == CURLE_URL_MALFORMAT || code == CURLE_LOGIN_DENIED) {
         return {ErrorCode::kInvalidArgument,
                 "not an address that can be fetched: " + one_line(reason)};
     }
-    long status = 0;
-    curl_easy_getinfo(handle, CURLINFO_RESPONSE_CODE, &status);
     if (code == CURLE_HTTP_RETURNED_ERROR) {
         const bool gone = status == 404 || status == 410;
         return {gone ? ErrorCode::kNotFound : ErrorCode::kUnavailable,

@@ -35,8 +35,6 @@ void configure_library() {
 
 const char* reader_name(Format format) {
     switch (format) {
-        case Format::kPng:
-            return "png";
         case Format::kGif:
             return "gif";
         case Format::kTiff:
@@ -51,6 +49,7 @@ const char* reader_name(Format format) {
         case Format::kOpenExr:
             return "openexr";
         case Format::kJpeg:
+        case Format::kPng:
         case Format::kWebp:
             break;
     }

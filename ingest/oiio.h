@@ -1,5 +1,5 @@
-// Pixels of every format but JPEG and WebP, through OpenImageIO
-// (ingest, step 2): sniff -> dimensions -> [oiio] -> orientation.
+// Pixels of every format but JPEG, PNG and WebP, through OpenImageIO
+// (ingest, step 2, in the child): sniff -> dimensions -> [oiio] -> orientation.
 //
 // Its readers are shown bytes in memory under a name of ours; libheif alone insists on a
 // file and gets an unlinked one. Only the first picture of a file is read. Colour profiles
@@ -24,7 +24,7 @@ namespace haarmony::ingest {
 
 // The same bytes twice: mapped, and as a descriptor for the reader that wants a file.
 struct OiioSource {
-    Format format = Format::kPng;
+    Format format = Format::kTiff;
     std::span<const std::uint8_t> bytes;
     int fd = -1;  // only used for HEIF and AVIF
 };

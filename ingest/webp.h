@@ -1,4 +1,4 @@
-// WebP pixels with libwebp (ingest, step 2): sniff -> dimensions -> [webp] -> orientation.
+// WebP pixels with libwebp (ingest, step 2, in the child): sniff -> dimensions -> [webp] -> orientation.
 //
 // OpenImageIO 2.4 reads WebP too, but multiplies by alpha through an 8-bit power curve and
 // back: in a file with an alpha channel, even an opaque grey of 9 comes out black.
