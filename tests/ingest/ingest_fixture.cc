@@ -60,11 +60,12 @@ std::map<std::string, StoredRow> IngestFixture::rows(const std::string& path) co
                                         known.emplace_back(file, uri);
                                     }));
     for (const auto& [file, uri] : known) {
-        StoredRow row{.id = to_int(file.id),
-                      .state = file.state,
-                      .content_hash = file.stamp.content_hash,
-                      .size = file.stamp.size,
-                      .mtime_ns = file.stamp.mtime_ns};
+        StoredRow row;
+        row.id = to_int(file.id);
+        row.state = file.state;
+        row.content_hash = file.stamp.content_hash;
+        row.size = file.stamp.size;
+        row.mtime_ns = file.stamp.mtime_ns;
         if (file.state == schema::ImageState::kIndexed) {
             const auto image = store.get(file.id);
             const auto signature = store.signature(file.id);

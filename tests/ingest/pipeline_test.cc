@@ -65,7 +65,7 @@ TEST_F(PipelineTest, EqualFilesAreTwoRows) {
 }
 
 TEST_F(PipelineTest, ManyFilesAreEachDescribedOnceByAnyNumberOfWorkers) {
-    constexpr int kFiles = 700;
+    constexpr int kFiles = 350;
     for (int i = 0; i < kFiles; ++i) {
         const std::string number = std::to_string(i);
         folder_.write(std::to_string(i % 7) + '/' + number + ".png",
@@ -80,9 +80,9 @@ TEST_F(PipelineTest, ManyFilesAreEachDescribedOnceByAnyNumberOfWorkers) {
         options_.file_bytes = 10;  // most workers wait for their share most of the time
         const Report report = run(options_, fresh, pictures.steps(), observer, stop_);
         ASSERT_TRUE(report.outcome);
-        EXPECT_EQ(report.tally, (Tally{.seen = 700, .added = 630, .failed = 70}));
+        EXPECT_EQ(report.tally, (Tally{.seen = 350, .added = 315, .failed = 35}));
         EXPECT_EQ(pictures.described, kFiles);
-        EXPECT_EQ(observer.failures.size(), 70u);
+        EXPECT_EQ(observer.failures.size(), 35u);
         EXPECT_EQ(fresh.rows().size(), static_cast<std::size_t>(kFiles));
         for (const int rows : fresh.operations_per_transaction) {
             EXPECT_LE(rows, static_cast<int>(kBatchRows));
@@ -323,7 +323,7 @@ TEST_F(PipelineTest, ADeletionDuringTheRunIsRespected) {
 
 TEST_F(PipelineTest,
        AFailureOfAnyTransactionKeepsWhatWasCommittedAndTheNextRunDoesTheRest) {
-    constexpr int kFiles = 600;
+    constexpr int kFiles = 2 * static_cast<int>(kBatchRows) + 8;
     for (int i = 0; i < kFiles; ++i) folder_.write(std::to_string(i) + ".png", "x");
     for (int failing = 1; failing <= 3; ++failing) {
         MemoryCatalogue catalogue;
@@ -361,7 +361,7 @@ TEST_F(PipelineTest, AFailureOfAnyLookupEndsTheRunWithItsReason) {
 }
 
 TEST_F(PipelineTest, StoppingCommitsWhatIsDescribedAndTakesNoMore) {
-    constexpr int kFiles = 700;
+    constexpr int kFiles = 300;
     for (int i = 0; i < kFiles; ++i) folder_.write(std::to_string(i) + ".png", "x");
     constexpr int kEnough = 10;
     pictures_.while_describing = [&](const std::string&) {
