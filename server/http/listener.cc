@@ -198,6 +198,8 @@ void Listener::Impl::stop() {
             std::unique_lock lock(mutex_);
             ended_.wait_for(lock, options_.grace, [this] { return sessions_.empty(); });
         }
+        // First the queues: a handler that ends now must not make room for the next one.
+        for (WorkerPool* pool : {&cheap_, &costly_, &streams_}) pool->discard();
         for (const auto& session : sessions()) session->cut();
         cheap_.stop();
         costly_.stop();

@@ -31,15 +31,17 @@ bool WorkerPool::cancel(Ticket ticket) {
     return !removed.empty();
 }
 
-void WorkerPool::stop() {
+void WorkerPool::discard() {
+    // Destroyed after the lock is released, as in cancel().
     std::map<Ticket, Job> dropped;
-    {
-        const std::lock_guard lock(mutex_);
-        stopping_ = true;
-        dropped.swap(queue_);
-        changed_.notify_all();
-    }
-    dropped.clear();
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    dropped.swap(queue_);
+    changed_.notify_all();
+}
+
+void WorkerPool::stop() {
+    discard();
     for (std::thread& thread : threads_) {
         if (thread.joinable()) thread.join();
     }

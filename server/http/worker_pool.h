@@ -28,14 +28,16 @@ class WorkerPool {
     WorkerPool& operator=(const WorkerPool&) = delete;
 
     // Jobs start in the order of their submission and must not throw. Nothing if
-    // `queue_limit` jobs wait already, or after stop().
+    // `queue_limit` jobs wait already, or after discard().
     [[nodiscard]] std::optional<Ticket> submit(Job job);
 
     // Destroys the job without running it. False if it has started already.
     bool cancel(Ticket ticket);
 
-    // Destroys what is queued, waits for what runs. A job learns that it is never going to
-    // run by the destructors of what it holds.
+    // Takes no more and destroys what is queued. A job learns that it is never going to run
+    // by the destructors of what it holds.
+    void discard();
+    // discard(), then waits for what runs.
     void stop();
 
     [[nodiscard]] std::size_t queued() const;

@@ -1,0 +1,124 @@
+// Full queues, and clients that leave before their answer.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/server/http/test_server.h"
+
+namespace haarmony::http::test {
+namespace {
+
+constexpr const char* kGate = "GET /gate HTTP/1.1\r\nHost: h\r\n\r\n";
+
+// One costly thread, held at the gate, and a queue of the given size.
+class Overloaded {
+  public:
+    explicit Overloaded(int queue) {
+        server.options.costly_threads = 1;
+        server.options.costly_queue = queue;
+        server.start();
+        holder = std::make_unique<HttpClient>(server.port());
+        holder->send(kGate);
+        EXPECT_TRUE(server.gate.wait_for(1));
+    }
+    [[nodiscard]] bool queued(std::size_t count) {
+        return eventually([&] { return server.listener->load().costly_queued == count; });
+    }
+
+    TestServer server;
+    std::unique_ptr<HttpClient> holder;
+};
+
+TEST(ListenerOverload, FullQueueIs503WhileCheapRequestsPass) {
+    Overloaded overloaded(2);
+    TestServer& server = overloaded.server;
+    HttpClient second(server.port());
+    HttpClient third(server.port());
+    second.send(kGate);
+    third.send(kGate);
+    ASSERT_TRUE(overloaded.queued(2));
+    HttpClient fourth(server.port());
+    const HttpReply refused = fourth.get("/gate");
+    EXPECT_EQ(refused.status, 503);
+    EXPECT_GE(std::stoi(refused.header("retry-after")), 1);
+    EXPECT_EQ(nlohmann::json::parse(refused.body)["code"], "overloaded");
+    // The connection that was refused is still good, and the cheap pool is free.
+    EXPECT_EQ(fourth.get("/hello").body, "hello");
+    server.gate.open();
+    EXPECT_EQ(overloaded.holder->receive().body, "through");
+    EXPECT_EQ(second.receive().body, "through");
+    EXPECT_EQ(third.receive().body, "through");
+    EXPECT_EQ(fourth.get("/gate").body, "through");
+}
+
+TEST(ListenerOverload, ClientThatLeavesTakesItsQueuedRequestWithIt) {
+    Overloaded overloaded(10);
+    TestServer& server = overloaded.server;
+    auto leaves = std::make_unique<HttpClient>(server.port());
+    auto resets = std::make_unique<HttpClient>(server.port());
+    HttpClient stays(server.port());
+    leaves->send(kGate);
+    resets->send(kGate);
+    stays.send(kGate);
+    ASSERT_TRUE(overloaded.queued(3));
+    leaves.reset();
+    resets->reset();
+    ASSERT_TRUE(overloaded.queued(1));
+    server.gate.open();
+    EXPECT_EQ(stays.receive().body, "through");
+    EXPECT_EQ(overloaded.holder->receive().body, "through");
+    EXPECT_EQ(server.gate.came(), 2);
+    ASSERT_TRUE(eventually([&] { return server.finished().size() == 4; }));
+    int left = 0;
+    for (const Finished& finished : server.finished())
+        left += finished.status == 499 ? 1 : 0;
+    EXPECT_EQ(left, 2);
+}
+
+TEST(ListenerOverload, ClientThatOnlyClosedItsHalfKeepsItsPlaceInTheQueue) {
+    Overloaded overloaded(10);
+    HttpClient half(overloaded.server.port());
+    half.send("GET /gate HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n");
+    half.finish_sending();
+    ASSERT_TRUE(overloaded.queued(1));
+    overloaded.server.gate.open();
+    EXPECT_EQ(half.receive().body, "through");
+}
+
+TEST(ListenerOverload, PipelinedRequestsBehindAQueuedOneAreNotLost) {
+    Overloaded overloaded(10);
+    HttpClient client(overloaded.server.port());
+    client.send(std::string(kGate) + "GET /hello HTTP/1.1\r\nHost: h\r\n\r\n");
+    client.finish_sending();
+    ASSERT_TRUE(overloaded.queued(1));
+    overloaded.server.gate.open();
+    EXPECT_EQ(client.receive().body, "through");
+    EXPECT_EQ(client.receive().body, "hello");
+    EXPECT_TRUE(client.at_end());
+}
+
+TEST(ListenerOverload, HandlerHearsThatItsClientLeft) {
+    TestServer server;
+    std::atomic<bool> started = false;
+    std::atomic<bool> heard = false;
+    server.router.add(
+        "GET", "/long", {.cost = Cost::kCostly}, [&](const Request& request) {
+            started = true;
+            heard = eventually([&] { return request.cancelled.stop_requested(); });
+            return Response{};
+        });
+    server.start();
+    auto client = std::make_unique<HttpClient>(server.port());
+    client->send("GET /long HTTP/1.1\r\nHost: h\r\n\r\n");
+    ASSERT_TRUE(eventually([&] { return started.load(); }));
+    client.reset();
+    EXPECT_TRUE(eventually([&] { return heard.load(); }));
+}
+
+}  // namespace
+}  // namespace haarmony::http::test
