@@ -30,7 +30,7 @@ export function floodFill(raster, seedX, seedY, color, tolerance) {
       const pixel = y * width + x;
       if (region.inside[pixel]) {
         changed = paint(data, pixel * 4, color) || changed;
-      } else if (data[pixel * 4 + 3] < 255 && borders(region.inside, width, height, x, y)) {
+      } else if (isSoft(data[pixel * 4 + 3]) && borders(region.inside, width, height, x, y)) {
         changed = paintUnder(data, pixel * 4, color) || changed;
       }
     }
@@ -92,6 +92,11 @@ function regionAround({ width, height, data }, seedX, seedY, tolerance) {
   };
 }
 
+/** @param {number} alpha */
+function isSoft(alpha) {
+  return alpha > 0 && alpha < 255;
+}
+
 /**
  * @param {Uint8ClampedArray} data
  * @param {number} at
@@ -125,13 +130,13 @@ function difference(data, at, seed) {
  * @param {number} y
  */
 function borders(inside, width, height, x, y) {
-  const pixel = y * width + x;
-  return (
-    (x > 0 && inside[pixel - 1] === 1) ||
-    (x < width - 1 && inside[pixel + 1] === 1) ||
-    (y > 0 && inside[pixel - width] === 1) ||
-    (y < height - 1 && inside[pixel + width] === 1)
-  );
+  // Diagonal neighbours too: a soft edge is up to one and a half pixels wide.
+  for (let j = Math.max(0, y - 1); j <= Math.min(height - 1, y + 1); ++j) {
+    for (let i = Math.max(0, x - 1); i <= Math.min(width - 1, x + 1); ++i) {
+      if (inside[j * width + i] === 1) return true;
+    }
+  }
+  return false;
 }
 
 /**

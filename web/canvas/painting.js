@@ -204,14 +204,11 @@ export class Painting extends EventTarget {
     context.save();
     context.globalCompositeOperation = color === null ? 'destination-out' : 'source-over';
     context.strokeStyle = color ?? '#000';
+    context.fillStyle = color ?? '#000';
     context.lineCap = 'round';
     for (const piece of pieces) {
       extent.add(piece);
-      context.lineWidth = piece.width;
-      context.beginPath();
-      context.moveTo(piece.x0, piece.y0);
-      context.lineTo(piece.x1, piece.y1);
-      context.stroke();
+      drawPiece(context, piece);
     }
     context.restore();
     if (pieces.length > 0) this.#changed(false);
@@ -283,6 +280,24 @@ export class Painting extends EventTarget {
     }
     this.dispatchEvent(new CustomEvent('change', { detail: { settled } }));
   }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {import('./stroke.js').Piece} piece
+ */
+function drawPiece(context, { x0, y0, x1, y1, width }) {
+  context.beginPath();
+  if (x0 === x1 && y0 === y1) {
+    // A line without length has no caps either.
+    context.arc(x0, y0, width / 2, 0, 2 * Math.PI);
+    context.fill();
+    return;
+  }
+  context.lineWidth = width;
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
 }
 
 /** @param {HTMLCanvasElement} canvas */

@@ -67,10 +67,14 @@ export class Stroke {
  * @returns {Piece[]}
  */
 function curve(from, control, to) {
-  const length =
-    Math.hypot(control.x - from.x, control.y - from.y) +
-    Math.hypot(to.x - control.x, to.y - control.y);
-  const count = Math.ceil(length / kPieceLength);
+  // A quadratic curve is nowhere faster than twice its longer leg.
+  const speed =
+    2 *
+    Math.max(
+      Math.hypot(control.x - from.x, control.y - from.y),
+      Math.hypot(to.x - control.x, to.y - control.y),
+    );
+  const count = Math.ceil(speed / kPieceLength);
   const pieces = [];
   let last = from;
   for (let i = 1; i <= count; ++i) {
