@@ -54,6 +54,7 @@ test('on a phone the canvas stays in view while the results scroll', async () =>
   try {
     await page.goto(server.address);
     await paintStroke(page, [[0.1, 0.2], [0.9, 0.8]]);
+    await page.waitForURL(/signature=/); // the last results, not those of half a stroke
     await page.locator('#grid > li').nth(19).scrollIntoViewIfNeeded();
     const box = await page.locator('#canvas').boundingBox();
     assert.ok(box && box.y >= 0 && box.y + box.height < 740 / 2 + 60, JSON.stringify(box));

@@ -26,9 +26,10 @@ beforeEach(async () => {
   await page.goto(server.address);
   await page.locator('#samples li').first().waitFor();
 });
-afterEach(() => {
+afterEach(async () => {
   server.onQuery = null;
   server.key = null;
+  await page.evaluate(() => sessionStorage.clear());
 });
 
 test('an empty collection says how to fill it, and the page notices when it is filled', async () => {
@@ -63,12 +64,21 @@ test('a lost server is told, and found again without help', async () => {
 });
 
 test('the button of the banner does not wait for the next attempt', async () => {
+  // In a page whose clock stands still no attempt is made by itself.
+  const frozen = await browser.context.newPage();
+  await frozen.clock.install({ time: 0 });
+  await frozen.goto(server.address);
+  await frozen.locator('#samples li').first().waitFor();
+  await frozen.locator('#live').uncheck();
+  await paintStroke(frozen, [[0.1, 0.1], [0.9, 0.9]]);
+  await frozen.clock.pauseAt(3_600_000);
   await server.stop();
-  await paintStroke(page, [[0.1, 0.1], [0.9, 0.9]]);
-  await page.locator('#banner').waitFor();
+  await frozen.locator('#match').click();
+  await frozen.locator('#banner').waitFor();
   await server.start();
-  await page.locator('#banner-button').click();
-  await page.locator('#grid > li').nth(19).waitFor();
+  await frozen.locator('#banner-button').click();
+  await frozen.locator('#grid > li').nth(19).waitFor();
+  await frozen.close();
 });
 
 test('the results stay while the server is away', async () => {
@@ -152,13 +162,12 @@ test('a server with a key asks for it, refuses a wrong one, and keeps a right on
     return image instanceof HTMLImageElement && image.src.startsWith('blob:') && image.naturalWidth > 0;
   });
   await paintStroke(page, [[0.1, 0.1], [0.9, 0.9]]);
-  await page.locator('#grid > li').nth(19).waitFor();
+  await page.waitForURL(/signature=/);
   await page.reload();
   await page.locator('#grid > li').nth(19).waitFor();
   assert.equal(await page.locator('#key').isVisible(), false);
   const stored = await page.evaluate(() => [...Object.values(sessionStorage), ...Object.values(localStorage)]);
   assert.deepEqual(stored, ['secret']);
-  await page.evaluate(() => sessionStorage.clear());
 });
 
 test('without a key the page says so, and asks again only when told to', async () => {
