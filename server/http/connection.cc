@@ -132,7 +132,11 @@ net::awaitable<void> Connection::linger(Milliseconds deadline) {
     socket_.shutdown(net::ip::tcp::socket::shutdown_send, error);
     received_.clear();
     start_deadline(deadline);
-    while (!error && co_await fill() == Arrival::kBytes) received_.clear();
+    while (!error) {
+        const Arrival arrival = co_await fill();
+        if (arrival != Arrival::kBytes) break;
+        received_.clear();
+    }
     close();
 }
 

@@ -70,6 +70,7 @@ class Listener::Impl {
 
   private:
     void accept_next();
+    void accepted(const error_code& error);
     void welcome(tcp::socket socket);
     void accept_backlog();
     [[nodiscard]] std::vector<std::shared_ptr<Session>> sessions() const;
@@ -86,6 +87,8 @@ class Listener::Impl {
     net::executor_work_guard<net::io_context::executor_type> work_;
     std::vector<std::thread> threads_;
     std::uint16_t port_ = 0;
+    bool stopping_ = false;  // on the acceptor's strand
+    std::promise<void> accepting_ended_;
 
     mutable std::mutex mutex_;
     std::condition_variable ended_;
@@ -115,25 +118,28 @@ Result<void> Listener::Impl::open() {
     return {};
 }
 
+// One accept or one pause is under way at any time, until the last one finds `stopping_`.
 void Listener::Impl::accept_next() {
     acceptor_.async_accept(net::make_strand(io_),
                            [this](error_code error, tcp::socket socket) {
-                               if (!acceptor_.is_open()) return;
-                               if (!error) {
-                                   welcome(std::move(socket));
-                               } else if (error != net::error::connection_aborted) {
-                                   {
-                                       const std::lock_guard lock(mutex_);
-                                       ++accept_failures_;
-                                   }
-                                   pause_.expires_after(kAcceptPause);
-                                   pause_.async_wait([this](error_code) {
-                                       if (acceptor_.is_open()) accept_next();
-                                   });
-                                   return;
-                               }
-                               accept_next();
+                               if (!error) welcome(std::move(socket));
+                               accepted(error);
                            });
+}
+
+void Listener::Impl::accepted(const error_code& error) {
+    if (stopping_) {
+        accepting_ended_.set_value();
+    } else if (!error || error == net::error::connection_aborted) {
+        accept_next();
+    } else {
+        {
+            const std::lock_guard lock(mutex_);
+            ++accept_failures_;
+        }
+        pause_.expires_after(kAcceptPause);
+        pause_.async_wait([this](error_code) { accepted({}); });
+    }
 }
 
 void Listener::Impl::welcome(tcp::socket socket) {
@@ -183,15 +189,14 @@ std::vector<std::shared_ptr<Session>> Listener::Impl::sessions() const {
 void Listener::Impl::stop() {
     std::call_once(stopped_, [this] {
         if (!threads_.empty()) {
-            std::promise<void> closed;
-            net::post(acceptor_.get_executor(), [this, &closed] {
+            net::post(acceptor_.get_executor(), [this] {
+                stopping_ = true;
                 accept_backlog();
                 error_code ignored;
                 acceptor_.close(ignored);
                 pause_.cancel();
-                closed.set_value();
             });
-            closed.get_future().wait();
+            accepting_ended_.get_future().wait();
         }
         for (const auto& session : sessions()) session->drain();
         {

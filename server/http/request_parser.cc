@@ -100,6 +100,8 @@ std::size_t RequestParser::Impl::feed_head(std::string_view bytes) {
 }
 
 std::size_t RequestParser::Impl::feed_body(std::string_view bytes) {
+    // Beast asserts that the rest of a chunked body is at least "0\r\n\r\n". It will be.
+    if (parser.chunked() && bytes.size() < 5) return 0;
     boost::beast::error_code error;
     const std::size_t taken =
         parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);

@@ -24,7 +24,8 @@ using Clock = std::chrono::steady_clock;
 using State = RequestParser::State;
 using Arrival = Connection::Arrival;
 
-constexpr int kClientLeft = 499;            // in the access log only
+constexpr int kClientLeft = 499;  // in the access log only
+constexpr std::chrono::milliseconds kHalfClosePause{250};
 constexpr std::size_t kJoined = 16 * 1024;  // a body up to this goes out with its head
 
 Problem overloaded(std::string detail) {
@@ -50,7 +51,9 @@ struct Session::Exchange {
     Clock::time_point began = Clock::now();
     Response response;
     std::optional<std::uint64_t> content_length;
-    bool close = false;  // whatever the client wants
+    bool costly = false;
+    bool answered = false;  // without a handler
+    bool close = false;     // whatever the client wants
 
     Request& request() { return parser.request(); }
     [[nodiscard]] const Request& request() const { return parser.request(); }
@@ -69,7 +72,8 @@ Session::Session(net::ip::tcp::socket socket,
     : service_(service),
       ended_(std::move(ended)),
       connection_(std::make_shared<Connection>(std::move(socket))),
-      wake_(connection_->executor()) {}
+      wake_(connection_->executor()),
+      half_closed_(connection_->executor()) {}
 
 Session::~Session() { ended_(); }
 
@@ -109,7 +113,9 @@ void Session::cut() {
 }
 
 net::awaitable<void> Session::serve() {
-    while (co_await serve_request()) {
+    for (bool more = true; more;) {
+        // g++ 12 makes invalid code of a loop whose condition is a co_await.
+        more = co_await serve_request();
     }
 }
 
@@ -160,8 +166,8 @@ net::awaitable<void> Session::read_body(RequestParser& parser) {
     }
 }
 
-// Sees to what the head says of the body, up to "100 Continue". False if the client left.
-net::awaitable<bool> Session::expect_body(RequestParser& parser, std::uint64_t limit) {
+// Sees to what the head says of the body, up to "100 Continue".
+net::awaitable<void> Session::expect_body(RequestParser& parser, std::uint64_t limit) {
     const std::string_view coding = parser.request().header("Content-Encoding");
     const std::string_view expect = parser.request().header("Expect");
     if (!coding.empty() && !equal_without_case(coding, "identity")) {
@@ -171,97 +177,102 @@ net::awaitable<bool> Session::expect_body(RequestParser& parser, std::uint64_t l
                                  std::string(coding) + "'.",
                        .param = "Content-Encoding",
                        .headers = {{"Accept-Encoding", "identity"}}});
-        co_return true;
+        co_return;
     }
     if (!expect.empty() && !equal_without_case(expect, "100-continue")) {
         parser.refuse({.status = 417,
                        .code = "expectation_failed",
                        .detail = "Expect: '" + std::string(expect) + "' is not known.",
                        .param = "Expect"});
-        co_return true;
+        co_return;
     }
     parser.begin_body(limit);
     const bool wants_word = !expect.empty() && parser.state() == State::kBody &&
                             !parser.is_http_1_0() && connection_->received().empty();
-    if (!wants_word) co_return true;
-    co_return co_await connection_->write("HTTP/1.1 100 Continue\r\n\r\n",
-                                          service_.options.write_deadline);
+    if (!wants_word) co_return;
+    const bool told = co_await connection_->write("HTTP/1.1 100 Continue\r\n\r\n",
+                                                  service_.options.write_deadline);
+    if (!told) gone_ = true;
 }
 
 // One request. True if another may follow.
 net::awaitable<bool> Session::serve_request() {
     RequestParser parser;
-    if (!co_await read_head(parser)) co_return false;
+    const bool arrived = co_await read_head(parser);
+    if (!arrived) co_return false;
     first_ = false;
+    left_ = false;
     Exchange exchange(parser);
-    Request& request = parser.request();
-    request.remote = connection_->remote();
     stop_ = std::stop_source();
-    request.cancelled = stop_.get_token();
+    parser.request().remote = connection_->remote();
+    parser.request().cancelled = stop_.get_token();
 
-    bool answered = false;
-    if (parser.state() == State::kHeadDone) {
-        answered = !admit(exchange);
-        if (!answered) {
-            const RouteMatch match = service_.router.match(request.method, request.path);
-            // Without a route no body is read: the answer does not depend on it.
-            if (match.options == nullptr) {
-                exchange.response =
-                    service_.router.dispatch(request, service_.hooks.failed);
-                answered = true;
-            } else {
-                if (!co_await expect_body(parser, match.options->body_limit))
-                    co_return false;
-                if (parser.state() == State::kBody) co_await read_body(parser);
-            }
-        }
-        if (answered && parser.has_body()) exchange.close = must_linger_ = true;
-    }
+    co_await receive(exchange);
     connection_->stop_deadline();
-    if (gone_) {
-        exchange.response.status = kClientLeft;
-        report_finished(exchange);
-        co_return false;
+    if (!gone_) co_await respond(exchange);
+    if (gone_) exchange.response.status = kClientLeft;
+    report_finished(exchange);
+    co_return !gone_ && !exchange.close;
+}
+
+// The rest of the request, or an answer that needs no more of it.
+net::awaitable<void> Session::receive(Exchange& exchange) {
+    RequestParser& parser = exchange.parser;
+    if (parser.state() == State::kHeadDone) {
+        Request& request = parser.request();
+        const RouteMatch match = service_.router.match(request.method, request.path);
+        if (std::optional<Response> refusal = admit(request, match)) {
+            exchange.response = *std::move(refusal);
+            exchange.answered = true;
+        } else if (match.options == nullptr) {
+            // Without a route no body is read: the answer does not depend on it.
+            exchange.response = service_.router.dispatch(request, service_.hooks.failed);
+            exchange.answered = true;
+        } else {
+            exchange.costly = match.options->cost == Cost::kCostly;
+            co_await expect_body(parser, match.options->body_limit);
+            if (!gone_ && parser.state() == State::kBody) co_await read_body(parser);
+        }
+        if (exchange.answered && parser.has_body()) exchange.close = must_linger_ = true;
     }
     if (parser.state() == State::kBad) {
         exchange.refuse(parser.problem());
+        exchange.answered = true;
         exchange.close = must_linger_ = true;
-        answered = true;
     }
+}
 
-    const bool wants_to_stay = parser.state() != State::kBad && parser.keep_alive();
+// The answer, while an eye is kept on the client.
+net::awaitable<void> Session::respond(Exchange& exchange) {
+    const bool wants_to_stay =
+        exchange.parser.state() != State::kBad && exchange.parser.keep_alive();
     connection_->watch(
         [weak = weak_from_this(), wants_to_stay](Connection::Departure how) {
             if (const auto self = weak.lock()) self->peer_left(how, wants_to_stay);
         });
-    if (!answered) co_await answer(exchange);
-    const bool sent = !gone_ && co_await send(exchange);
-    if (gone_) exchange.response.status = kClientLeft;
+    if (!exchange.answered) co_await answer(exchange);
+    if (!gone_) {
+        const bool sent = co_await send(exchange);
+        if (!sent) exchange.close = true;
+    }
     connection_->unwatch();
-    report_finished(exchange);
-    co_return sent && !gone_ && !exchange.close;
+    ++request_number_;
+    half_closed_.cancel();
 }
 
-// False if the answer stands already: a key is missing.
-bool Session::admit(Exchange& exchange) {
-    if (!service_.hooks.admit) return true;
-    const RouteMatch match =
-        service_.router.match(exchange.request().method, exchange.request().path);
+// The answer to a client without a key, where one is needed.
+std::optional<Response> Session::admit(const Request& request,
+                                       const RouteMatch& match) const {
+    if (!service_.hooks.admit) return std::nullopt;
     const RouteOptions options =
         match.options != nullptr ? *match.options : RouteOptions{.open = match.open};
-    std::optional<Response> refusal = service_.hooks.admit(exchange.request(), options);
-    if (!refusal) return true;
-    exchange.response = *std::move(refusal);
-    return false;
+    return service_.hooks.admit(request, options);
 }
 
 // Runs the handler on its pool and prepares its answer there, too.
 net::awaitable<void> Session::answer(Exchange& exchange) {
-    const RouteMatch match =
-        service_.router.match(exchange.request().method, exchange.request().path);
-    const bool costly = match.options != nullptr && match.options->cost == Cost::kCostly;
     const Service& service = service_;
-    const auto work = [&exchange, &service] {
+    std::function<void()> work = [&exchange, &service] {
         Request& request = exchange.request();
         Response& response = exchange.response;
         response = service.router.dispatch(request, service.hooks.failed);
@@ -280,7 +291,8 @@ net::awaitable<void> Session::answer(Exchange& exchange) {
         response = to_response(problem_of(source.error()), request);
         exchange.content_length = body_length(response);
     };
-    const JobEnd end = co_await run_on(costly ? service_.costly : service_.cheap, work);
+    WorkerPool& pool = exchange.costly ? service_.costly : service_.cheap;
+    const JobEnd end = co_await run_on(pool, std::move(work));
     if (end == JobEnd::kRefused) {
         exchange.refuse(overloaded("Too many requests are waiting already."));
     } else if (end == JobEnd::kDropped) {
@@ -309,7 +321,7 @@ net::awaitable<Session::JobEnd> Session::run_on(WorkerPool& pool,
     }
     if (!ticket) co_return JobEnd::kRefused;
     while (!state->ended) {
-        if (gone_) pool.cancel(*ticket);
+        if (left_) pool.cancel(*ticket);
         co_await sleep_until_woken(std::chrono::hours(24));
     }
     co_return state->ran ? JobEnd::kRan : JobEnd::kDropped;
@@ -345,10 +357,14 @@ net::awaitable<bool> Session::send(Exchange& exchange) {
     const Connection::Milliseconds deadline = service_.options.write_deadline;
     const bool joined = has_body && bytes != nullptr && bytes->size() <= kJoined;
     if (joined) head += *bytes;
-    if (!co_await connection_->write(head, deadline)) co_return false;
-    if (!has_body || joined) co_return true;
-    if (bytes != nullptr) co_return co_await connection_->write(*bytes, deadline);
-    co_return co_await send_stream(exchange, *source);
+    bool sent = co_await connection_->write(head, deadline);
+    if (!sent || !has_body || joined) co_return sent;
+    if (bytes != nullptr) {
+        sent = co_await connection_->write(*bytes, deadline);
+    } else {
+        sent = co_await send_stream(exchange, *source);
+    }
+    co_return sent;
 }
 
 net::awaitable<bool> Session::send_stream(Exchange& exchange, const ChunkSource& source) {
@@ -357,20 +373,21 @@ net::awaitable<bool> Session::send_stream(Exchange& exchange, const ChunkSource&
     for (;;) {
         std::optional<std::string> chunk;
         std::string failure;
-        const JobEnd end = co_await run_on(service_.streams, [&] {
+        std::function<void()> pull = [&] {
             try {
                 chunk = source();
             } catch (const std::exception& error) {
                 failure = *error.what() == '\0' ? "unnamed" : error.what();
             }
-        });
+        };
+        const JobEnd end = co_await run_on(service_.streams, std::move(pull));
         if (!failure.empty() && service_.hooks.failed) {
             service_.hooks.failed(exchange.request(), failure);
         }
-        if (end != JobEnd::kRan || !failure.empty() || gone_) co_return false;
+        if (end != JobEnd::kRan || !failure.empty() || left_) co_return abandon();
         if (chunk && chunk->empty() && !connection_->draining()) {
             co_await sleep_until_woken(service_.options.poll_interval);
-            if (gone_) co_return false;
+            if (left_) co_return abandon();
             continue;
         }
         if (!chunk || chunk->empty()) break;
@@ -382,15 +399,16 @@ net::awaitable<bool> Session::send_stream(Exchange& exchange, const ChunkSource&
         } else if (exchange.content_length) {
             left -= chunk->size();
         }
-        if (!co_await connection_->write(*chunk, service_.options.write_deadline)) {
-            co_return false;
-        }
+        const bool sent =
+            co_await connection_->write(*chunk, service_.options.write_deadline);
+        if (!sent) co_return false;
     }
     if (left != 0) co_return false;
-    if (chunked)
-        co_return co_await connection_->write("0\r\n\r\n",
-                                              service_.options.write_deadline);
-    co_return true;
+    bool ended = true;
+    if (chunked) {
+        ended = co_await connection_->write("0\r\n\r\n", service_.options.write_deadline);
+    }
+    co_return ended;
 }
 
 bool Session::ends_after(const Exchange& exchange) const {
@@ -404,13 +422,29 @@ bool Session::ends_after(const Exchange& exchange) const {
 }
 
 void Session::peer_left(Connection::Departure departure, bool wants_to_stay) {
-    const bool left = departure == Connection::Departure::kReset ||
-                      (wants_to_stay && connection_->received().empty());
-    if (left) give_up();
+    if (departure == Connection::Departure::kReset) {
+        give_up();
+    } else if (wants_to_stay && connection_->received().empty()) {
+        half_closed_.expires_after(kHalfClosePause);
+        half_closed_.async_wait([self = shared_from_this(), number = request_number_](
+                                    const boost::system::error_code& error) {
+            if (error || number != self->request_number_) return;
+            self->left_ = true;
+            self->stop_.request_stop();
+            self->wake_.cancel();
+        });
+    }
+}
+
+// A stream that nobody listens to has no end; false, for send_stream() to return.
+bool Session::abandon() {
+    gone_ = left_;
+    return false;
 }
 
 void Session::give_up() {
     gone_ = true;
+    left_ = true;
     stop_.request_stop();
     wake_.cancel();
 }

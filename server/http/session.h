@@ -4,17 +4,20 @@
 //   listener -> [session] -> router -> a handler of server/api
 //
 // Requests of one connection are answered one after another, so pipelined ones in order.
-// A client that leaves takes its queued request with it. A FIN alone is taken for leaving
-// only if the client wanted to keep the connection, since others may send all, close their
-// half, and listen.
+// A client that leaves takes its queued request and its stream with it, and a handler that
+// runs is told. A FIN alone is taken for leaving only if the client meant to keep the
+// connection, and a quarter of a second after it: others send all, close their half, and
+// listen. An answer that is ready all the same is sent.
 //
 // Threads  start(), drain() and cut() from any thread; the rest on the connection's strand.
 #pragma once
 
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -62,8 +65,10 @@ class Session : public std::enable_shared_from_this<Session> {
     boost::asio::awaitable<void> turn_away();
     boost::asio::awaitable<bool> read_head(RequestParser& parser);
     boost::asio::awaitable<void> read_body(RequestParser& parser);
-    boost::asio::awaitable<bool> expect_body(RequestParser& parser, std::uint64_t limit);
+    boost::asio::awaitable<void> expect_body(RequestParser& parser, std::uint64_t limit);
     boost::asio::awaitable<bool> serve_request();
+    boost::asio::awaitable<void> receive(Exchange& exchange);
+    boost::asio::awaitable<void> respond(Exchange& exchange);
     boost::asio::awaitable<void> answer(Exchange& exchange);
     boost::asio::awaitable<bool> send(Exchange& exchange);
     boost::asio::awaitable<bool> send_stream(Exchange& exchange,
@@ -71,20 +76,25 @@ class Session : public std::enable_shared_from_this<Session> {
     boost::asio::awaitable<JobEnd> run_on(WorkerPool& pool, std::function<void()> work);
     boost::asio::awaitable<void> sleep_until_woken(std::chrono::milliseconds at_most);
 
-    [[nodiscard]] bool admit(Exchange& exchange);
+    [[nodiscard]] std::optional<Response> admit(const Request& request,
+                                                const RouteMatch& match) const;
     [[nodiscard]] bool ends_after(const Exchange& exchange) const;
     void peer_left(Connection::Departure departure, bool wants_to_stay);
     void give_up();
+    bool abandon();
     void report_finished(const Exchange& exchange) const;
 
     const Service& service_;
     const std::function<void()> ended_;
     const std::shared_ptr<Connection> connection_;
-    boost::asio::steady_timer wake_;  // its cancellation wakes what waits
-    std::stop_source stop_;           // of the request in work
-    bool gone_ = false;               // nobody waits for the answer any more
-    bool first_ = true;               // no request has been read yet
-    bool must_linger_ = false;        // a body was refused without being read
+    boost::asio::steady_timer wake_;         // its cancellation wakes what waits
+    boost::asio::steady_timer half_closed_;  // runs from a FIN on
+    std::stop_source stop_;                  // of the request in work
+    std::uint64_t request_number_ = 0;
+    bool left_ = false;         // probably nobody waits for the answer any more
+    bool gone_ = false;         // nobody does
+    bool first_ = true;         // no request has been read yet
+    bool must_linger_ = false;  // a body was refused without being read
 };
 
 }  // namespace haarmony::http

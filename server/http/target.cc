@@ -52,7 +52,7 @@ std::optional<std::string_view> after_authority(std::string_view target) {
         if (!target.starts_with(scheme)) continue;
         target.remove_prefix(scheme.size());
         const std::size_t end = target.find_first_of("/?");
-        if (end == 0) return std::nullopt;
+        if (target.empty() || end == 0) return std::nullopt;
         return end == std::string_view::npos ? std::string_view{} : target.substr(end);
     }
     return std::nullopt;

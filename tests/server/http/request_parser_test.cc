@@ -230,7 +230,7 @@ TEST(RequestParser, BodyLongerThanTheLimitIs413) {
     EXPECT_EQ(status_of(head + "Content-Length: 101\r\n\r\n"), 413);
     EXPECT_EQ(status_of(head + "Content-Length: 100\r\n\r\n"), 0);
     const std::string chunked = head + "Transfer-Encoding: chunked\r\n\r\n";
-    EXPECT_EQ(status_of(chunked + "65\r\n"), 413);
+    EXPECT_EQ(status_of(chunked + "65\r\nx"), 413);
     const std::string part = "32\r\n" + std::string(50, 'x') + "\r\n";
     EXPECT_EQ(status_of(chunked + part + part + "0\r\n\r\n"), 0);
     EXPECT_EQ(status_of(chunked + part + part + "1\r\nx\r\n"), 413);
