@@ -86,7 +86,8 @@ void Session::start(Welcome welcome) {
             } else {
                 co_await self->turn_away();
             }
-            if (self->must_linger_ && !self->gone_) {
+            const bool unread = self->must_linger_ || self->connection_->has_input();
+            if (unread && !self->gone_) {
                 co_await self->connection_->linger(
                     self->service_.options.linger_deadline);
             }

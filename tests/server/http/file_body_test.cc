@@ -50,7 +50,7 @@ TEST(FileBody, MissingFileIsNotFoundAndItsPathIsNotTold) {
         open_file_range({.path = folder.path() / "none", .offset = 0, .length = 0});
     ASSERT_FALSE(source);
     EXPECT_EQ(source.error().code, ErrorCode::kNotFound);
-    EXPECT_THAT(source.error().message, testing::Not(testing::HasSubstr("none")));
+    EXPECT_THAT(source.error().message, ::testing::Not(::testing::HasSubstr("none")));
     EXPECT_EQ(open_file_range({.path = folder.write("f", "x") + "/g", .length = 0})
                   .error()
                   .code,

@@ -102,8 +102,8 @@ TEST(ListenerBody, FileThatIsGoneIs404WithoutItsPath) {
     HttpClient client(server.port());
     const HttpReply reply = client.get("/file");
     EXPECT_EQ(reply.status, 404);
-    EXPECT_THAT(reply.body, testing::Not(testing::HasSubstr("gone\"")));
-    EXPECT_THAT(reply.body, testing::Not(testing::HasSubstr(folder.path().string())));
+    EXPECT_THAT(reply.body, ::testing::Not(::testing::HasSubstr("gone\"")));
+    EXPECT_THAT(reply.body, ::testing::Not(::testing::HasSubstr(folder.path().string())));
     EXPECT_EQ(client.get("/hello").status, 200);
 }
 
@@ -235,7 +235,7 @@ TEST(ListenerBody, SourceThatThrowsBreaksTheConnectionOff) {
     server.start();
     HttpClient client(server.port());
     EXPECT_THROW((void)client.get("/broken"), std::runtime_error);
-    EXPECT_THAT(server.failed(), testing::ElementsAre("the video ended early"));
+    EXPECT_THAT(server.failed(), ::testing::ElementsAre("the video ended early"));
     EXPECT_TRUE(server.is_usable());
 }
 

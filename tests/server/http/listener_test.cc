@@ -192,6 +192,18 @@ TEST(Listener, ConnectionCloseIsHonoured) {
     EXPECT_TRUE(client.at_end());
 }
 
+TEST(Listener, AnswerSurvivesWhatIsSentBehindTheLastRequest) {
+    TestServer server;
+    server.start();
+    for (int round = 0; round < 20; ++round) {
+        HttpClient client(server.port());
+        client.send("GET /hello HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n" +
+                    std::string(300'000, 'x'));
+        EXPECT_EQ(client.receive().body, "hello");
+        EXPECT_TRUE(client.at_end());
+    }
+}
+
 TEST(Listener, ClientThatClosesItsHalfIsStillAnswered) {
     TestServer server;
     server.start();
