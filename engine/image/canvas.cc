@@ -20,7 +20,10 @@ std::uint8_t to_byte(float value) {
 }  // namespace
 
 RowCover::RowCover(int width)
-    : width_(width), step_(std::size_t(width) + 1), edge_(std::size_t(width) + 1) {}
+    : width_(width),
+      step_(std::size_t(width) + 1),
+      edge_(std::size_t(width) + 1),
+      touched_begin_(step_.size()) {}
 
 int RowCover::to_units(double x) const {
     return static_cast<int>(std::lround(std::clamp(x, 0.0, double(width_)) * kSubPixel));
@@ -35,11 +38,14 @@ void RowCover::add(const Span& span) {
     step_[last] -= kSubPixel;
     edge_[first] -= begin % kSubPixel;
     edge_[last] += end % kSubPixel;
+    touched_begin_ = std::min(touched_begin_, first);
+    touched_end_ = std::max(touched_end_, last + 1);
 }
 
 void RowCover::clear() {
-    std::ranges::fill(step_, 0);
-    std::ranges::fill(edge_, 0);
+    for (std::size_t x = touched_begin_; x < touched_end_; ++x) step_[x] = edge_[x] = 0;
+    touched_begin_ = step_.size();
+    touched_end_ = 0;
 }
 
 Canvas::Canvas(int width, int height, const std::optional<Rgb>& background)

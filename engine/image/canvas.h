@@ -39,6 +39,8 @@ class RowCover {
     int width_;
     std::vector<int> step_;  // cover of pixel x = edge_[x] + the sum of step_[0..x]
     std::vector<int> edge_;
+    std::size_t touched_begin_;  // what may differ from 0
+    std::size_t touched_end_ = 0;
 };
 
 class Canvas {
@@ -62,7 +64,7 @@ class Canvas {
 template <typename Visit>
 void RowCover::flush(const Visit& visit) {
     int whole = 0;
-    for (std::size_t x = 0; x < std::size_t(width_); ++x) {
+    for (std::size_t x = touched_begin_; x < touched_end_; ++x) {
         whole += step_[x];
         const int cover = whole + edge_[x];
         if (cover > 0) visit(x, cover);

@@ -9,7 +9,10 @@ void SearchArrays::add_matches(const Query& query,
         const std::uint32_t end = begin_[term.key + 1];
         if (cut) {
             for (std::uint32_t i = begin_[term.key]; i < end; ++i) {
-                matched[slots_[i]] += ranks_[i] < query.m ? term.weight : 0;
+                // A mask: ranks are too random for a branch to be foreseen.
+                const std::int32_t within =
+                    -static_cast<std::int32_t>(ranks_[i] < query.m);
+                matched[slots_[i]] += term.weight & within;
             }
         } else {
             for (std::uint32_t i = begin_[term.key]; i < end; ++i) {

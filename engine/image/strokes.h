@@ -25,7 +25,7 @@
 namespace haarmony::image {
 
 inline constexpr int kMaxCanvasSide = 65535;
-inline constexpr int kMaxRasterSide = 512;
+inline constexpr int kMaxRasterSide = 256;
 inline constexpr int kMaxStrokes = 2'000;
 inline constexpr int kMaxStrokePoints = 20'000;  // of all strokes together
 inline constexpr int kSubRows = 4;
@@ -71,7 +71,7 @@ struct Raster {
 // kMaxStrokePoints, finite numbers, widths not negative and as many as there should be.
 [[nodiscard]] Result<void> check_strokes(const StrokePicture& picture);
 
-// A canvas with a side above kMaxRasterSide (four pixels to a cell of the signature) is
+// A canvas with a side above kMaxRasterSide (two pixels, eight lines, to a cell of the signature) is
 // painted smaller, in proportion. Requires: check_strokes() has no objection.
 // Cost: a point at most 4 * kMaxRasterSide lines, those outside the canvas none; a stroke
 // at most the pixels of the raster.
