@@ -278,15 +278,19 @@ Result<Counts> ImageStore::counts() {
     const auto failed = [](Error error) {
         return while_doing("cannot count the images", std::move(error));
     };
+    // All rows are counted page by page; only the few of the other states one by one.
     auto statement = statements_->cache.borrow(
-        "SELECT count(*) FILTER (WHERE state = 'indexed'),"
-        " count(*) FILTER (WHERE state = 'failed'),"
-        " count(*) FILTER (WHERE state = 'deleted') FROM images");
+        "SELECT (SELECT count(*) FROM images),"
+        " (SELECT count(*) FROM images WHERE state = 'failed'),"
+        " (SELECT count(*) FROM images WHERE state = 'deleted')");
     if (!statement) return failed(std::move(statement).error());
     const Result<bool> row = (*statement)->step();
     if (!row) return failed(row.error());
-    return Counts{
-        (*statement)->integer(0), (*statement)->integer(1), (*statement)->integer(2)};
+    Counts counts;
+    counts.failed = (*statement)->integer(1);
+    counts.deleted = (*statement)->integer(2);
+    counts.indexed = (*statement)->integer(0) - counts.failed - counts.deleted;
+    return counts;
 }
 
 }  // namespace haarmony::schema
