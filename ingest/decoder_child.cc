@@ -108,7 +108,7 @@ DecoderChild::DecoderChild(ChildOptions options) : options_(std::move(options)) 
 DecoderChild::~DecoderChild() { kill_and_wait(); }
 
 int DecoderChild::kill_and_wait() {
-    socket_.reset();
+    socket_ = FileDescriptor();
     if (pid_ < 0) return 0;
     ::kill(pid_, SIGKILL);
     int status = 0;
@@ -126,8 +126,8 @@ Result<void> DecoderChild::start() {
         return Error{ErrorCode::kIo,
                      "socketpair: " + std::generic_category().message(errno)};
     }
-    Descriptor ours(ends[0]);
-    const Descriptor theirs(ends[1]);
+    FileDescriptor ours(ends[0]);
+    const FileDescriptor theirs(ends[1]);
 
     SpawnPlan plan;
     plan_child(plan, theirs.get());
@@ -158,7 +158,7 @@ Result<void> DecoderChild::start() {
 // A child that died since the last picture (killed when memory was short, say) is no fault
 // of this one: it is replaced once.
 Result<void> DecoderChild::request(Format format, std::span<const std::uint8_t> bytes) {
-    Result<Descriptor> memory = sealed_memory(bytes);
+    Result<FileDescriptor> memory = sealed_memory(bytes);
     if (!memory) return memory.error();
     WireRequest message;
     message.format = static_cast<std::uint32_t>(format);
@@ -189,7 +189,7 @@ Error DecoderChild::bury(Format format, const std::string& sign) {
     }
     if (waited == pid_) {
         pid_ = -1;
-        socket_.reset();
+        socket_ = FileDescriptor();
     } else {
         status = kill_and_wait();
     }

@@ -56,7 +56,7 @@ class DecoderChild {
     int kill_and_wait();
 
     ChildOptions options_;
-    Descriptor socket_;
+    FileDescriptor socket_;
     pid_t pid_ = -1;
 };
 

@@ -127,7 +127,8 @@ int main(int argc, char** argv) {
     while (auto received = receive_request(kSocket)) {
         if (!allow_seconds(received->request.cpu_seconds)) return 3;
         const Result<Raster> result = decode(*received);
-        received->memory.reset();  // before the answer: nothing is held between pictures
+        received->memory =
+            FileDescriptor();  // before the answer: nothing is held between pictures
         if (!answer(result)) return 1;
     }
     return 0;

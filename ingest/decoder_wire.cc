@@ -9,7 +9,6 @@
 #include <cstring>
 #include <string>
 #include <system_error>
-#include <utility>
 
 namespace haarmony::ingest {
 namespace {
@@ -45,26 +44,9 @@ bool check_reply(const WireReply& reply, std::int64_t max_pixels) {
                                static_cast<std::uint64_t>(reply.channels);
 }
 
-Descriptor::~Descriptor() { reset(); }
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this != &other) {
-        reset();
-        fd_ = other.release();
-    }
-    return *this;
-}
-
-int Descriptor::release() { return std::exchange(fd_, -1); }
-
-void Descriptor::reset() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-}
-
-Result<Descriptor> sealed_memory(std::span<const std::uint8_t> bytes) {
-    Descriptor memory(::memfd_create("picture", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-    if (!memory) return io_error("memfd_create");
+Result<FileDescriptor> sealed_memory(std::span<const std::uint8_t> bytes) {
+    FileDescriptor memory(::memfd_create("picture", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    if (!memory.valid()) return io_error("memfd_create");
     std::size_t written = 0;
     while (written < bytes.size()) {
         const ssize_t count =
@@ -133,10 +115,10 @@ std::optional<ReceivedRequest> receive_request(int socket) {
         header->cmsg_type == SCM_RIGHTS && header->cmsg_len == CMSG_LEN(sizeof(int))) {
         int memory = -1;
         std::memcpy(&memory, CMSG_DATA(header), sizeof(int));
-        received.memory = Descriptor(memory);
+        received.memory = FileDescriptor(memory);
     }
     const bool whole = count == static_cast<ssize_t>(sizeof(received.request));
-    if (!whole || !received.memory || received.request.magic != kWireMagic) {
+    if (!whole || !received.memory.valid() || received.request.magic != kWireMagic) {
         return std::nullopt;
     }
     return received;

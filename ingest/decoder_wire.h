@@ -15,6 +15,7 @@
 #include <span>
 
 #include "engine/core/result.h"
+#include "ingest/file_descriptor.h"
 #include "ingest/sniff.h"
 
 namespace haarmony::ingest {
@@ -45,28 +46,8 @@ struct WireReply {
 // Whether a reply is one that an honest child could send.
 [[nodiscard]] bool check_reply(const WireReply& reply, std::int64_t max_pixels);
 
-// A file descriptor that closes itself.
-class Descriptor {
-  public:
-    Descriptor() = default;
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor();
-    Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    [[nodiscard]] int get() const { return fd_; }
-    [[nodiscard]] explicit operator bool() const { return fd_ >= 0; }
-    [[nodiscard]] int release();
-    void reset();
-
-  private:
-    int fd_ = -1;
-};
-
 // A memory file with a copy of `bytes` that nobody can change any more.
-[[nodiscard]] Result<Descriptor> sealed_memory(std::span<const std::uint8_t> bytes);
+[[nodiscard]] Result<FileDescriptor> sealed_memory(std::span<const std::uint8_t> bytes);
 
 // False where the peer is gone or sends something else. No signal is raised.
 [[nodiscard]] bool send_request(int socket, const WireRequest& request, int memory);
@@ -74,7 +55,7 @@ class Descriptor {
 
 struct ReceivedRequest {
     WireRequest request;
-    Descriptor memory;
+    FileDescriptor memory;
 };
 [[nodiscard]] std::optional<ReceivedRequest> receive_request(int socket);
 

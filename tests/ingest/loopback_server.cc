@@ -11,11 +11,13 @@
 #include <array>
 #include <utility>
 
+#include "ingest/decoder_wire.h"
+
 namespace haarmony::ingest {
 namespace {
 
 // False when the server is to stop.
-bool wait_for(const Descriptor& readable, const Descriptor& stop) {
+bool wait_for(const FileDescriptor& readable, const FileDescriptor& stop) {
     std::array<pollfd, 2> wait = {pollfd{readable.get(), POLLIN, 0},
                                   pollfd{stop.get(), POLLIN, 0}};
     while (::poll(wait.data(), wait.size(), -1) < 0) {
@@ -49,8 +51,8 @@ LoopbackServer::LoopbackServer(std::map<std::string, std::string> responses)
     port_ = ntohs(address.sin_port);
     std::array<int, 2> ends{};
     EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
-    stop_read_ = Descriptor(ends[0]);
-    stop_write_ = Descriptor(ends[1]);
+    stop_read_ = FileDescriptor(ends[0]);
+    stop_write_ = FileDescriptor(ends[1]);
     thread_ = std::thread([this] { serve(); });
 }
 
@@ -65,13 +67,13 @@ std::string LoopbackServer::url(const std::string& path) const {
 
 void LoopbackServer::serve() {
     while (wait_for(listener_, stop_read_)) {
-        const Descriptor connection(
+        const FileDescriptor connection(
             ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-        if (connection) answer(connection);
+        if (connection.valid()) answer(connection);
     }
 }
 
-void LoopbackServer::answer(const Descriptor& connection) {
+void LoopbackServer::answer(const FileDescriptor& connection) {
     std::string request;
     while (request.find("\r\n\r\n") == std::string::npos) {
         if (!wait_for(connection, stop_read_)) return;

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "ingest/decoder_wire.h"
+#include "ingest/file_descriptor.h"
 
 namespace haarmony::ingest {
 
@@ -24,12 +24,12 @@ class LoopbackServer {
 
   private:
     void serve();
-    void answer(const Descriptor& connection);
+    void answer(const FileDescriptor& connection);
 
     std::map<std::string, std::string> responses_;
-    Descriptor listener_;
-    Descriptor stop_read_;
-    Descriptor stop_write_;
+    FileDescriptor listener_;
+    FileDescriptor stop_read_;
+    FileDescriptor stop_write_;
     int port_ = 0;
     std::atomic<int> requests_{0};
     std::thread thread_;
