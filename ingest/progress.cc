@@ -106,7 +106,7 @@ Progress::Progress(ProgressMode mode,
       err_(err),
       clock_(std::move(clock)),
       start_(clock_()),
-      next_(start_ + interval_of(mode)),
+      next_(mode == ProgressMode::kPlain ? start_ + interval_of(mode) : start_),
       rate_(start_) {}
 
 void Progress::failed(const std::string& path, const std::string& reason) {

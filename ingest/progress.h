@@ -1,6 +1,6 @@
 // What a run says while it goes on, and at its end.
 //
-// kBar    one line of a terminal, drawn over and over; kPlain: lines "progress: ...", seldom.
+// kBar    one line of a terminal, drawn at once and over again; kPlain: lines "progress: ...", seldom.
 //         Both end with "done: seen=N added=N updated=N skipped=N failed=N pruned=N
 //         seconds=S".   kNone: only that line.
 // kJson   one JSON object a line, told apart by "event": "progress", "failed", "done".

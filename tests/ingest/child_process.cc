@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -31,6 +32,23 @@ int pipe_without_reader() {
     return ends[1];
 }
 
+// A pipe that takes no byte more until it is read.
+struct FullPipe {
+    int read_end = -1;
+    int write_end = -1;
+    std::size_t bytes = 0;
+};
+
+FullPipe full_pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) std::abort();
+    FullPipe pipe{ends[0], ends[1], 0};
+    ::fcntl(pipe.write_end, F_SETFL, O_NONBLOCK);
+    while (::write(pipe.write_end, "x", 1) == 1) ++pipe.bytes;
+    ::fcntl(pipe.write_end, F_SETFL, 0);
+    return pipe;
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
@@ -38,9 +56,15 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
     int child_end = -1;
     if (options.terminal) {
         const winsize size{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
-        if (::openpty(&terminal_, &child_end, nullptr, nullptr, &size) != 0) std::abort();
+        if (::openpty(&output_, &child_end, nullptr, nullptr, &size) != 0) std::abort();
     }
-    const int out = options.terminal        ? child_end
+    if (options.full_output) {
+        const FullPipe pipe = full_pipe();
+        output_ = pipe.read_end;
+        child_end = pipe.write_end;
+        filled_ = pipe.bytes;
+    }
+    const int out = child_end >= 0          ? child_end
                     : options.closed_output ? pipe_without_reader()
                                             : open_to_write(folder_ / "out");
     const int err = options.terminal ? child_end : open_to_write(folder_ / "err");
@@ -75,19 +99,19 @@ ChildProcess::~ChildProcess() {
         signal(SIGKILL);
         (void)wait();
     }
-    if (terminal_ >= 0) ::close(terminal_);
+    if (output_ >= 0) ::close(output_);
 }
 
 void ChildProcess::signal(int number) const { ::kill(process_, number); }
 
 int ChildProcess::wait() {
     if (status_) return *status_;
-    if (terminal_ >= 0) {
-        // The terminal holds little: it is read until the child has closed its end.
+    if (output_ >= 0) {
+        // It holds little: it is read until the child has closed its end.
         std::array<char, 4096> bytes{};
         for (ssize_t count = 0;
-             (count = ::read(terminal_, bytes.data(), bytes.size())) > 0;) {
-            terminal_text_.append(bytes.data(), static_cast<std::size_t>(count));
+             (count = ::read(output_, bytes.data(), bytes.size())) > 0;) {
+            output_text_.append(bytes.data(), static_cast<std::size_t>(count));
         }
     }
     int status = 0;
@@ -97,7 +121,8 @@ int ChildProcess::wait() {
 }
 
 std::string ChildProcess::out() const {
-    return terminal_ >= 0 ? terminal_text_ : content_of(folder_ / "out");
+    return output_ >= 0 ? output_text_.substr(std::min(filled_, output_text_.size()))
+                        : content_of(folder_ / "out");
 }
 
 std::string ChildProcess::err() const { return content_of(folder_ / "err"); }

@@ -40,8 +40,9 @@ class ChildProcess {
     const ScratchFolder folder_;
     pid_t process_ = -1;
     std::optional<int> status_;
-    int terminal_ = -1;
-    std::string terminal_text_;
+    int output_ = -1;  // our end of a terminal or of a full pipe
+    std::size_t filled_ = 0;
+    std::string output_text_;
 };
 
 struct Finished {

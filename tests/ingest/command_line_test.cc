@@ -1,71 +1,128 @@
-// What haarmony-ingest says and how it ends, as its callers see it.
+#include "ingest/command_line.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
-#include "tests/ingest/ingest_fixture.h"
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace haarmony::ingest {
 namespace {
 
-using Json = nlohmann::json;
 using testing::ContainsRegex;
 using testing::ElementsAre;
-using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
 
-class CommandLine : public IngestFixture {};
+using Arguments = std::vector<std::string>;
 
-std::string bytes_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    return bytes.str();
+TEST(CommandLine, EveryOptionIsUnderstood) {
+    const auto line = parse_command_line({"--db",
+                                          "a.db",
+                                          "x",
+                                          "--jobs",
+                                          "7",
+                                          "--prune",
+                                          "--restore",
+                                          "--exclude",
+                                          "*.a",
+                                          "--exclude=b/",
+                                          "--progress",
+                                          "json",
+                                          "--max-file-bytes",
+                                          "5000000000",
+                                          "y"});
+    ASSERT_TRUE(line) << line.error().message;
+    EXPECT_EQ(line->database, "a.db");
+    EXPECT_THAT(line->pipeline.paths, ElementsAre("x", "y"));
+    EXPECT_EQ(line->pipeline.jobs, 7);
+    EXPECT_TRUE(line->pipeline.prune);
+    EXPECT_TRUE(line->pipeline.restore);
+    ASSERT_EQ(line->pipeline.walk.exclude.size(), 2u);
+    EXPECT_TRUE(line->pipeline.walk.exclude[0].matches("c.a", false));
+    EXPECT_TRUE(line->pipeline.walk.exclude[1].matches("b", true));
+    EXPECT_EQ(line->progress, ProgressMode::kJson);
+    EXPECT_EQ(line->pipeline.max_file_bytes, 5'000'000'000);
+    EXPECT_THAT(line->answer, IsEmpty());
 }
 
-TEST_F(CommandLine, WrongUsageIsStatus2AndNamesWhatIsWrong) {
-    const std::pair<std::vector<std::string>, const char*> cases[] = {
-        {{}, "PATH"},
-        {{pictures_, "--jobs", "0"}, "--jobs"},
-        {{pictures_, "--jobs", "many"}, "many"},
-        {{pictures_, "--jobs", "1000000"}, "1000000"},
-        {{pictures_, "--max-file-bytes", "0"}, "--max-file-bytes"},
-        {{pictures_, "--progress", "loud"}, "loud"},
-        {{pictures_, "--exclude", ""}, "--exclude"},
-        {{pictures_, "--exclude"}, "--exclude"},
-        {{""}, "PATH"},
-        {{pictures_, "--db", database_}, "--db"},
-        {{pictures_, "--urls", "list"}, "--urls"},
-        {{pictures_, "--videos"}, "--videos"},
-        {{pictures_, "--watch"}, "--watch"},
-        {{pictures_, "--import-iqdb", "f"}, "--import-iqdb"},
-        {{pictures_, "--export", "f"}, "--export"},
-        {{pictures_, "--import", "f"}, "--import"}};
-    for (const auto& [arguments, named] : cases) {
-        const Finished finished = ingest(arguments);
-        EXPECT_EQ(finished.status, 2) << named;
-        EXPECT_THAT(finished.out, IsEmpty());
-        EXPECT_THAT(finished.err, HasSubstr(named));
+TEST(CommandLine, DefaultsAreSafe) {
+    const auto line = parse_command_line({"--db", "a.db", "x"});
+    ASSERT_TRUE(line);
+    EXPECT_GE(line->pipeline.jobs, 1);
+    EXPECT_FALSE(line->pipeline.prune);
+    EXPECT_FALSE(line->pipeline.restore);
+    EXPECT_THAT(line->pipeline.walk.exclude, IsEmpty());
+    EXPECT_EQ(line->progress, std::nullopt);
+}
+
+TEST(CommandLine, ProgressHasItsFourNames) {
+    const std::pair<const char*, std::optional<ProgressMode>> names[] = {
+        {"auto", std::nullopt},
+        {"plain", ProgressMode::kPlain},
+        {"none", ProgressMode::kNone},
+        {"json", ProgressMode::kJson}};
+    for (const auto& [name, mode] : names) {
+        const auto line = parse_command_line({"--db", "d", "x", "--progress", name});
+        ASSERT_TRUE(line) << name;
+        EXPECT_EQ(line->progress, mode) << name;
     }
-    EXPECT_FALSE(std::filesystem::exists(database_));
-    const Finished without = run_to_end({HAARMONY_INGEST, pictures_}, {});
-    EXPECT_EQ(without.status, 2);
-    EXPECT_THAT(without.err, HasSubstr("--db"));
-    EXPECT_EQ(run_to_end({HAARMONY_INGEST, "--db", "", pictures_}, {}).status, 2);
 }
 
-TEST_F(CommandLine, HelpNamesEveryOptionAndStatus) {
-    const Finished finished = run_to_end({HAARMONY_INGEST, "--help"}, {});
-    EXPECT_EQ(finished.status, 0);
-    EXPECT_THAT(finished.err, IsEmpty());
+TEST(CommandLine, WhatIsWrongIsNamed) {
+    const std::pair<Arguments, const char*> cases[] = {
+        {{"--db", "d"}, "PATH"},
+        {{"x"}, "--db"},
+        {{"--db", "", "x"}, "--db"},
+        {{"--db", "d", "--db", "e", "x"}, "--db"},
+        {{"--db", "d", ""}, "PATH"},
+        {{"--db", "d", "x", "--jobs", "0"}, "--jobs"},
+        {{"--db", "d", "x", "--jobs", "many"}, "many"},
+        {{"--db", "d", "x", "--jobs", "1000000"}, "1000000"},
+        {{"--db", "d", "x", "--max-file-bytes", "0"}, "--max-file-bytes"},
+        {{"--db", "d", "x", "--progress", "loud"}, "loud"},
+        {{"--db", "d", "x", "--exclude", ""}, "--exclude"},
+        {{"--db", "d", "x", "--exclude"}, "--exclude"},
+        {{"--db", "d", "x", "--unheard-of"}, "--unheard-of"}};
+    for (const auto& [arguments, named] : cases) {
+        const auto line = parse_command_line(arguments);
+        ASSERT_FALSE(line) << testing::PrintToString(arguments);
+        EXPECT_EQ(line.error().code, ErrorCode::kInvalidArgument);
+        EXPECT_THAT(line.error().message, HasSubstr(named));
+    }
+}
+
+TEST(CommandLine, WhatIsNotBuiltYetDoesNotExist) {
+    for (const char* option :
+         {"--urls", "--videos", "--watch", "--import-iqdb", "--export", "--import"}) {
+        const auto line = parse_command_line({"--db", "d", "x", option, "y"});
+        ASSERT_FALSE(line) << option;
+        EXPECT_THAT(line.error().message, HasSubstr(option));
+    }
+}
+
+TEST(CommandLine, PathsAndPatternsMayLookLikeListsAndOptions) {
+    const auto line = parse_command_line({"--db",
+                                          "d",
+                                          "[a,b]",
+                                          "--exclude",
+                                          "[xy]",
+                                          "{}",
+                                          "--",
+                                          "-x",
+                                          "--exclude",
+                                          "[c,d]"});
+    ASSERT_TRUE(line) << line.error().message;
+    EXPECT_THAT(line->pipeline.paths,
+                ElementsAre("./[a,b]", "{}", "-x", "--exclude", "./[c,d]"));
+    ASSERT_EQ(line->pipeline.walk.exclude.size(), 1u);
+    EXPECT_TRUE(line->pipeline.walk.exclude[0].matches("y", false));
+}
+
+TEST(CommandLine, HelpNamesEveryOptionAndStatus) {
+    const auto line = parse_command_line({"--help"});
+    ASSERT_TRUE(line);
     for (const char* text : {"PATH",
                              "--db",
                              "--jobs",
@@ -77,173 +134,15 @@ TEST_F(CommandLine, HelpNamesEveryOptionAndStatus) {
                              "--version",
                              "Exit status",
                              "130"}) {
-        EXPECT_THAT(finished.out, HasSubstr(text));
+        EXPECT_THAT(line->answer, HasSubstr(text));
     }
 }
 
-TEST_F(CommandLine, VersionIsNameAndNumber) {
-    const Finished finished = run_to_end({HAARMONY_INGEST, "--version"}, {});
-    EXPECT_EQ(finished.status, 0);
-    EXPECT_THAT(finished.out,
+TEST(CommandLine, VersionIsNameAndNumber) {
+    const auto line = parse_command_line({"--version"});
+    ASSERT_TRUE(line);
+    EXPECT_THAT(line->answer,
                 ContainsRegex("^haarmony-ingest [0-9]+\\.[0-9]+\\.[0-9]+\n$"));
-}
-
-TEST_F(CommandLine, PathsMayLookLikeListsAndOptions) {
-    const ChildOptions here{.working_folder = pictures_};
-    folder_.write("pictures/[a,b]/1.jpg", jpeg_of(1, 32, 32));
-    folder_.write("pictures/-x/2.jpg", jpeg_of(2, 32, 32));
-    folder_.write("pictures/--exclude/[c]/3.jpg", jpeg_of(3, 32, 32));
-    const Finished finished =
-        ingest({"[a,b]", "--exclude", "[z]", "--", "-x", "--exclude", "[c]"}, here);
-    EXPECT_EQ(counts_of(finished.out),
-              "seen=3 added=3 updated=0 skipped=0 failed=1 pruned=0")
-        << finished.err;
-    EXPECT_THAT(finished.err, HasSubstr("failed: " + pictures_ + "/[c]: "));
-    EXPECT_TRUE(rows().contains(pictures_ + "/[a,b]/1.jpg"));
-}
-
-TEST_F(CommandLine, AFailedFileIsALineOnStderrAndStatus1AndTheRestIsStored) {
-    folder_.write("pictures/good.jpg", jpeg_of(1, 64, 48));
-    const std::string whole = jpeg_of(2, 64, 48);
-    folder_.write("pictures/cut.jpg", whole.substr(0, whole.size() / 2));
-    folder_.write("pictures/text.jpg", "just text");
-    folder_.write("pictures/empty.jpg", "");
-    folder_.write("pictures/notes.txt", "just text");
-    for (const bool again : {false, true}) {
-        const Finished finished =
-            ingest({"--jobs", "1", "--progress", "none", pictures_});
-        EXPECT_EQ(finished.status, 1);
-        EXPECT_THAT(lines_of(finished.err),
-                    testing::UnorderedElementsAre(
-                        StartsWith("failed: " + pictures_ + "/cut.jpg: "),
-                        StartsWith("failed: " + pictures_ + "/empty.jpg: "),
-                        StartsWith("failed: " + pictures_ + "/text.jpg: ")));
-        EXPECT_EQ(counts_of(finished.out),
-                  again ? "seen=4 added=0 updated=0 skipped=1 failed=3 pruned=0"
-                        : "seen=4 added=1 updated=0 skipped=0 failed=3 pruned=0");
-        EXPECT_EQ(lines_of(finished.out).size(), 1u);
-    }
-    EXPECT_EQ(rows().at(pictures_ + "/good.jpg").width, 64);
-    EXPECT_EQ(rows().at(pictures_ + "/good.jpg").media_type, "image/jpeg");
-    EXPECT_EQ(rows().at(pictures_ + "/text.jpg").state, schema::ImageState::kFailed);
-}
-
-TEST_F(CommandLine, AMissingPathIsStatus1BesideOthersAndStatus3Alone) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const std::string missing = folder_ / "missing";
-    const Finished beside = ingest({missing, pictures_});
-    EXPECT_EQ(beside.status, 1);
-    EXPECT_EQ(counts_of(beside.out),
-              "seen=1 added=1 updated=0 skipped=0 failed=1 pruned=0");
-    const Finished alone = ingest({missing});
-    EXPECT_EQ(alone.status, 3);
-    for (const Finished& finished : {beside, alone}) {
-        EXPECT_THAT(lines_of(finished.err),
-                    ElementsAre("failed: " + missing + ": No such file or directory"));
-    }
-    EXPECT_EQ(counts_of(alone.out),
-              "seen=0 added=0 updated=0 skipped=0 failed=1 pruned=0");
-}
-
-TEST_F(CommandLine, AFileThatIsNoDatabaseIsStatus3AndStaysAsItIs) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const std::string content =
-        "something precious, and longer than a database's header is";
-    folder_.write("haarmony.db", content);
-    const Finished finished = ingest({pictures_});
-    EXPECT_EQ(finished.status, 3);
-    EXPECT_THAT(finished.out, IsEmpty());
-    EXPECT_THAT(finished.err, StartsWith("haarmony-ingest: "));
-    EXPECT_THAT(finished.err, HasSubstr(database_));
-    EXPECT_EQ(bytes_of(database_), content);
-    EXPECT_FALSE(std::filesystem::exists(database_ + "-wal"));
-}
-
-TEST_F(CommandLine, ADatabaseThatCannotBeMadeIsStatus3) {
-    const Finished finished = run_to_end(
-        {HAARMONY_INGEST, "--db", folder_ / "no/such/folder.db", pictures_}, {});
-    EXPECT_EQ(finished.status, 3);
-    EXPECT_THAT(finished.err, HasSubstr("no/such/folder.db"));
-}
-
-TEST_F(CommandLine, JsonIsOneObjectALineWithFailuresAndTheCountsAtTheEnd) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const std::string bad = folder_.write("pictures/b\xff.jpg", "text");
-    const Finished finished = ingest({"--progress", "json", pictures_});
-    EXPECT_EQ(finished.status, 1);
-    std::vector<Json> objects;
-    for (const std::string& line : lines_of(finished.out)) {
-        objects.push_back(Json::parse(line));
-        ASSERT_TRUE(objects.back().is_object());
-    }
-    ASSERT_GE(objects.size(), 2u);
-    const Json& done = objects.back();
-    EXPECT_EQ(done["event"], "done");
-    EXPECT_EQ(done["seen"], 2);
-    EXPECT_EQ(done["added"], 1);
-    EXPECT_EQ(done["updated"], 0);
-    EXPECT_EQ(done["skipped"], 0);
-    EXPECT_EQ(done["failed"], 1);
-    EXPECT_EQ(done["pruned"], 0);
-    EXPECT_GE(done["seconds"], 0);
-    const Json& failed = objects[objects.size() - 2];
-    EXPECT_EQ(failed["event"], "failed");
-    EXPECT_THAT(failed["uri"], EndsWith("/pictures/b%FF.jpg"));
-    EXPECT_THAT(finished.err, StartsWith("failed: " + bad + ": "));
-}
-
-TEST_F(CommandLine, ThereIsABarOnATerminalOnly) {
-    for (int i = 0; i < 60; ++i) {
-        folder_.write("pictures/" + std::to_string(i) + ".jpg", jpeg_of(i, 400, 300));
-    }
-    const Finished on_file = ingest({pictures_});
-    EXPECT_THAT(on_file.out, Not(HasSubstr("\r")));
-    std::filesystem::remove(database_);
-    const Finished on_terminal = ingest({"--jobs", "1", pictures_}, {.terminal = true});
-    EXPECT_EQ(on_terminal.status, 0);
-    EXPECT_THAT(on_terminal.out, HasSubstr(" files, "));
-    EXPECT_THAT(on_terminal.out,
-                HasSubstr("\r\x1b[K"
-                          "done: seen=60 added=60 "));
-    std::filesystem::remove(database_);
-    const Finished plain = ingest({"--progress", "plain", pictures_}, {.terminal = true});
-    EXPECT_THAT(plain.out, Not(HasSubstr("\x1b")));
-}
-
-TEST_F(CommandLine, AReaderThatGoesAwayDoesNotEndTheRun) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const Finished finished = ingest({pictures_}, {.closed_output = true});
-    EXPECT_EQ(finished.status, 0);
-    EXPECT_EQ(rows().size(), 1u);
-}
-
-TEST_F(CommandLine, ExcludeMayBeGivenSeveralTimes) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    folder_.write("pictures/b.jpg", jpeg_of(2, 32, 32));
-    folder_.write("pictures/x/c.jpg", jpeg_of(3, 32, 32));
-    const Finished finished =
-        ingest({"--exclude", "b.*", "--exclude=x/", pictures_, "--progress=none"});
-    EXPECT_EQ(counts_of(finished.out),
-              "seen=1 added=1 updated=0 skipped=0 failed=0 pruned=0");
-}
-
-TEST_F(CommandLine, ALargerFileThanAllowedIsAFailure) {
-    const std::string path = folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const Finished finished = ingest({"--max-file-bytes", "100", pictures_});
-    EXPECT_EQ(finished.status, 1);
-    EXPECT_THAT(finished.err, StartsWith("failed: " + path + ": "));
-    EXPECT_THAT(finished.err, EndsWith(" bytes, more than the limit of 100\n"));
-}
-
-TEST_F(CommandLine, ADatabaseNamedAndPlacedLikeAPictureIsNoPicture) {
-    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 32));
-    const std::string database = pictures_ + "/db.jpg";
-    for (int i = 0; i < 2; ++i) {
-        const Finished finished =
-            run_to_end({HAARMONY_INGEST, "--db", database, pictures_}, {});
-        EXPECT_EQ(finished.status, 0) << finished.err;
-        EXPECT_THAT(counts_of(finished.out), StartsWith("seen=1 "));
-    }
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
-#include "ingest/change.h"
+#include "ingest/batch.h"
 #include "schema/database.h"
 #include "tests/ingest/ingest_fixture.h"
 
@@ -17,31 +18,42 @@ namespace {
 
 using schema::ImageState;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 class Resume : public IngestFixture {
   protected:
-    // Enough work that the first commit comes long before the end.
-    static constexpr int kMany = 200;
+    // More than one batch and all that may wait behind it.
+    static constexpr int kGood = static_cast<int>(kBatchRows) + 60;
+    static constexpr int kMany = kGood + 1;
+    // The first file found is a bad one. Its failure is a line of JSON, written after its
+    // batch is committed: into a pipe that is full, so that the run stands still there,
+    // with one batch committed and later ones not, for as long as a test likes.
     void write_many() const {
-        for (int i = 0; i < kMany; ++i) {
+        folder_.write("pictures/0.jpg", "no picture");
+        for (int i = 0; i < kGood; ++i) {
             folder_.write(
                 "pictures/" + std::to_string(i % 9) + '/' + std::to_string(i) + ".jpg",
-                jpeg_of(i, 800, 600));
+                jpeg_of(i, 32, 24));
         }
     }
-    // False when the child ended before, or after a minute.
-    bool wait_for_rows(std::size_t count) const {
+    std::vector<std::string> command_that_stands_still() const {
+        return command({"--jobs", "1", "--progress", "json", pictures_});
+    }
+    // Returns how many rows there are.
+    int wait_for_more_rows(std::size_t than) const {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-        while (rows().size() < count) {
-            if (std::chrono::steady_clock::now() > deadline) return false;
+        std::size_t count = 0;
+        while ((count = rows().size()) <= than) {
+            if (std::chrono::steady_clock::now() > deadline) {
+                ADD_FAILURE() << "no commit within a minute";
+                break;
+            }
             ::sched_yield();
         }
-        return true;
+        return static_cast<int>(count);
     }
     std::map<std::string, StoredRow> rows_of_uninterrupted_run() const {
         const std::string other = folder_ / "uninterrupted.db";
-        EXPECT_EQ(run_to_end({HAARMONY_INGEST, "--db", other, pictures_}, {}).status, 0);
+        EXPECT_EQ(run_to_end({HAARMONY_INGEST, "--db", other, pictures_}, {}).status, 1);
         return without_ids(rows(other));
     }
     static std::map<std::string, StoredRow> without_ids(
@@ -49,67 +61,66 @@ class Resume : public IngestFixture {
         for (auto& [path, row] : rows) row = row.without_id();
         return rows;
     }
-    static std::string counts(int seen, int added, int skipped) {
-        return "seen=" + std::to_string(seen) + " added=" + std::to_string(added) +
-               " updated=0 skipped=" + std::to_string(skipped) + " failed=0 pruned=0";
+
+    void expect_orderly_end(int signal) const {
+        write_many();
+        ChildProcess child(command_that_stands_still(), {.full_output = true});
+        (void)wait_for_more_rows(0);
+        child.signal(signal);
+        EXPECT_EQ(child.wait(), 128 + signal);
+        const int done = static_cast<int>(rows().size());
+        EXPECT_LT(done, kMany);
+        const auto last = nlohmann::json::parse(lines_of(child.out()).back());
+        EXPECT_EQ(last["event"], "done");
+        EXPECT_EQ(last["seen"], done);
+        EXPECT_EQ(last["added"], done - 1);
+        EXPECT_EQ(last["failed"], 1);
+        EXPECT_EQ(lines_of(child.err()).size(), 1u) << child.err();
+        EXPECT_EQ(ingest({pictures_}).status, 1);
+        EXPECT_EQ(without_ids(rows()), rows_of_uninterrupted_run());
     }
 };
 
-TEST_F(Resume, KilledAtAnyMomentItGoesOnAndEndsLikeARunThatWasNot) {
+TEST_F(Resume, KilledInTheMiddleItGoesOnAndEndsLikeARunThatWasNot) {
     write_many();
-    std::size_t before = 0;
-    for (const int step : {1, 60}) {
-        ChildProcess child(command({"--jobs", "1", pictures_}), {});
-        ASSERT_TRUE(wait_for_rows(before + step));
-        child.signal(SIGKILL);
-        ASSERT_EQ(child.wait(), -SIGKILL) << "it was too fast to be killed";
-        before = rows().size();
-        ASSERT_LT(before, static_cast<std::size_t>(kMany));
-    }
+    ChildProcess child(command_that_stands_still(), {.full_output = true});
+    const int before = wait_for_more_rows(0);
+    child.signal(SIGKILL);
+    ASSERT_EQ(child.wait(), -SIGKILL);
     const auto kept = rows();
+    ASSERT_EQ(static_cast<int>(kept.size()), before);
+    ASSERT_LT(before, kMany);
     const Finished rest = ingest({pictures_});
-    EXPECT_EQ(rest.status, 0);
-    const int done = static_cast<int>(before);
-    EXPECT_EQ(counts_of(rest.out), counts(kMany, kMany - done, done));
+    EXPECT_EQ(rest.status, 1);
+    // Of those before, the bad one is tried again.
+    EXPECT_EQ(
+        counts_of(rest.out),
+        "seen=" + std::to_string(kMany) + " added=" + std::to_string(kMany - before) +
+            " updated=0 skipped=" + std::to_string(before - 1) + " failed=1 pruned=0");
     const auto now = rows();
     for (const auto& [path, row] : kept) EXPECT_EQ(now.at(path), row) << path;
     EXPECT_EQ(without_ids(now), rows_of_uninterrupted_run());
 }
 
-TEST_F(Resume, ASignalCommitsWhatIsDoneAndIsToldInTheStatus) {
-    write_many();
-    std::size_t before = 0;
-    for (const int signal : {SIGINT, SIGTERM}) {
-        ChildProcess child(command({"--jobs", "1", pictures_}), {});
-        ASSERT_TRUE(wait_for_rows(before + 1));
-        child.signal(signal);
-        EXPECT_EQ(child.wait(), 128 + signal);
-        const int now = static_cast<int>(rows().size());
-        ASSERT_LT(now, kMany) << "it was too fast to be stopped";
-        const int done = static_cast<int>(before);
-        EXPECT_THAT(
-            counts_of(child.out()),
-            testing::AnyOf(counts(now, now - done, done),
-                           // Stopped before the walk had passed all known files.
-                           HasSubstr("added=" + std::to_string(now - done) + ' ')));
-        EXPECT_EQ(child.err(), "");
-        before = static_cast<std::size_t>(now);
-    }
-    ASSERT_EQ(ingest({pictures_}).status, 0);
-    EXPECT_EQ(without_ids(rows()), rows_of_uninterrupted_run());
+TEST_F(Resume, CtrlCCommitsWhatIsDoneAndIsToldInTheStatus) { expect_orderly_end(SIGINT); }
+
+TEST_F(Resume, SigtermCommitsWhatIsDoneAndIsToldInTheStatus) {
+    expect_orderly_end(SIGTERM);
 }
 
 TEST_F(Resume, AFullDiskIsStatus3AndWhatWasCommittedStays) {
+    folder_.write("pictures/a.jpg", jpeg_of(1, 32, 24));
+    expect_ingested("seen=1 added=1 updated=0 skipped=0 failed=0 pruned=0");
     write_many();
-    const Finished full = ingest({"--jobs", "1", pictures_}, {.max_file_size = 1 << 20});
+    const Finished full =
+        ingest({"--jobs", "1", pictures_}, {.max_file_size = 128 << 10});
     EXPECT_EQ(full.status, 3);
-    EXPECT_THAT(full.err, StartsWith("haarmony-ingest: "));
+    EXPECT_THAT(full.err, HasSubstr("haarmony-ingest: "));
     const auto kept = rows();
-    const int done = static_cast<int>(kept.size());
-    EXPECT_GT(done, 0);
-    EXPECT_LT(done, kMany);
-    EXPECT_EQ(counts_of(full.out), counts(done, done, 0));
-    EXPECT_EQ(counts_of(ingest({pictures_}).out), counts(kMany, kMany - done, done));
+    EXPECT_TRUE(kept.contains(pictures_ + "/a.jpg"));
+    EXPECT_LT(static_cast<int>(kept.size()), kMany + 1);
+    EXPECT_THAT(counts_of(full.out), HasSubstr(" skipped=1 "));
+    EXPECT_EQ(ingest({pictures_}).status, 1);
     EXPECT_EQ(without_ids(rows()), rows_of_uninterrupted_run());
 }
 
