@@ -15,22 +15,34 @@ struct Studio {
     std::vector<double> hues;
 
     [[nodiscard]] double w() const { return canvas.aspect(); }
-    [[nodiscard]] Color tone(double lightness, double chroma) { return oklch(lightness, chroma, random.pick(std::span<const double>(hues))); }
-    [[nodiscard]] Color vivid() { return tone(random.between(0.5, 0.82), random.between(0.14, 0.23)); }
-    [[nodiscard]] Color paper() { return oklch(random.between(0.92, 0.97), random.between(0.01, 0.05), hues[0]); }
+    [[nodiscard]] Color tone(double lightness, double chroma) {
+        return oklch(lightness, chroma, random.pick(std::span<const double>(hues)));
+    }
+    [[nodiscard]] Color vivid() {
+        return tone(random.between(0.5, 0.82), random.between(0.14, 0.23));
+    }
+    [[nodiscard]] Color paper() {
+        return oklch(random.between(0.92, 0.97), random.between(0.01, 0.05), hues[0]);
+    }
 };
 
 // The threads of a canvas under the paint.
 void weave(Studio& s) {
     const std::uint32_t seed = s.random.noise_seed();
     s.canvas.rework([&](Point p, const Color& c) {
-        return c * (1 + 0.05 * noise(p.x * 12, p.y * 160, seed) + 0.035 * noise(p.x * 160, p.y * 12, seed + 1));
+        return c * (1 + 0.05 * noise(p.x * 12, p.y * 160, seed) +
+                    0.035 * noise(p.x * 160, p.y * 12, seed + 1));
     });
 }
 
-void divide(Studio& s, Point low, Point high, int depth, std::vector<std::array<Point, 2>>& cells) {
+void divide(Studio& s,
+            Point low,
+            Point high,
+            int depth,
+            std::vector<std::array<Point, 2>>& cells) {
     const Point size = high - low;
-    if (depth == 0 || std::min(size.x, size.y) < 0.14 || (depth < 3 && s.random.chance(0.25))) {
+    if (depth == 0 || std::min(size.x, size.y) < 0.14 ||
+        (depth < 3 && s.random.chance(0.25))) {
         cells.push_back({low, high});
         return;
     }
@@ -50,7 +62,8 @@ Label neoplastic(Studio& s) {
     std::vector<std::array<Point, 2>> cells;
     divide(s, {0, 0}, {s.w(), 1}, 5, cells);
     const bool classic = s.random.chance(0.5);
-    const Color primaries[] = {oklch(0.55, 0.22, 0.075), oklch(0.42, 0.19, kBlue), oklch(0.87, 0.18, 0.27)};
+    const Color primaries[] = {
+        oklch(0.55, 0.22, 0.075), oklch(0.42, 0.19, kBlue), oklch(0.87, 0.18, 0.27)};
     const double line = s.random.between(0.007, 0.014);
     int colored = 0;
     for (const auto& cell : cells) {
@@ -62,8 +75,10 @@ Label neoplastic(Studio& s) {
     }
     for (const auto& [low, high] : cells) {
         const Color ink{0.012, 0.012, 0.014};
-        s.canvas.rectangle({low.x - line, low.y - line}, {high.x + line, low.y + line}, ink);
-        s.canvas.rectangle({low.x - line, low.y - line}, {low.x + line, high.y + line}, ink);
+        s.canvas.rectangle(
+            {low.x - line, low.y - line}, {high.x + line, low.y + line}, ink);
+        s.canvas.rectangle(
+            {low.x - line, low.y - line}, {low.x + line, high.y + line}, ink);
     }
     weave(s);
     return {"Composition of rectangles", {"abstract", "rectangles"}};
@@ -77,15 +92,22 @@ Label circles_in_squares(Studio& s) {
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const Point low{i * width, j * height};
-            s.canvas.rectangle(low, {low.x + width, low.y + height}, s.tone(s.random.between(0.3, 0.9), 0.15));
+            s.canvas.rectangle(low,
+                               {low.x + width, low.y + height},
+                               s.tone(s.random.between(0.3, 0.9), 0.15));
             const Point centre = low + Point{width / 2, height / 2};
             const int rings = 4 + s.random.below(3);
             for (int k = 0; k < rings; ++k) {
-                const double r = 0.49 * std::min(width, height) * (1 - static_cast<double>(k) / rings) * s.random.between(0.94, 1.05);
+                const double r = 0.49 * std::min(width, height) *
+                                 (1 - static_cast<double>(k) / rings) *
+                                 s.random.between(0.94, 1.05);
                 std::vector<Point> wobble;
                 for (int q = 0; q < 14; ++q)
-                    wobble.push_back(centre + turned({r * s.random.between(0.94, 1.04), 0}, kTurn * q / 14));
-                s.canvas.polygon(smooth_outline(wobble, 6), s.tone(s.random.between(0.3, 0.92), 0.19));
+                    wobble.push_back(
+                        centre +
+                        turned({r * s.random.between(0.94, 1.04), 0}, kTurn * q / 14));
+                s.canvas.polygon(smooth_outline(wobble, 6),
+                                 s.tone(s.random.between(0.3, 0.92), 0.19));
             }
         }
     }
@@ -97,12 +119,19 @@ Label improvisation(Studio& s) {
     const Color ground = s.paper();
     const Color second = oklch(0.86, 0.07, s.hues[1]);
     const std::uint32_t seed = s.random.noise_seed();
-    s.canvas.cover([&](Point p) { return mix(ground, second, smoothstep(-0.2, 0.6, fbm(p.x * 1.2, p.y * 1.2, 3, seed))); });
-    const auto spot = [&] { return Point{s.random.between(0.08, 0.92) * s.w(), s.random.between(0.08, 0.92)}; };
+    s.canvas.cover([&](Point p) {
+        return mix(
+            ground, second, smoothstep(-0.2, 0.6, fbm(p.x * 1.2, p.y * 1.2, 3, seed)));
+    });
+    const auto spot = [&] {
+        return Point{s.random.between(0.08, 0.92) * s.w(), s.random.between(0.08, 0.92)};
+    };
     for (int i = 0; i < 6; ++i) {  // veils
         const Point at = spot();
         const double r = s.random.between(0.1, 0.32);
-        s.canvas.fill(soften(s.canvas.frame(), cover_disc(s.canvas.frame(), at, r), 0.02), s.vivid(), 0.55);
+        s.canvas.fill(soften(s.canvas.frame(), cover_disc(s.canvas.frame(), at, r), 0.02),
+                      s.vivid(),
+                      0.55);
     }
     for (int i = 0; i < 7; ++i) {
         const Point at = spot();
@@ -110,11 +139,15 @@ Label improvisation(Studio& s) {
         const Color c = s.vivid();
         switch (s.random.below(5)) {
             case 0:
-                for (int k = 0; k < 4; ++k) s.canvas.disc(at, size * (1 - 0.25 * k), k % 2 == 0 ? c : s.vivid(), 0.92);
+                for (int k = 0; k < 4; ++k)
+                    s.canvas.disc(
+                        at, size * (1 - 0.25 * k), k % 2 == 0 ? c : s.vivid(), 0.92);
                 break;
             case 1: {
                 const double angle = s.random.between(0, kTurn);
-                const Point triangle[] = {at + turned({0, -size * 1.3}, angle), at + turned({size, size * 0.8}, angle), at + turned({-size * 0.5, size}, angle)};
+                const Point triangle[] = {at + turned({0, -size * 1.3}, angle),
+                                          at + turned({size, size * 0.8}, angle),
+                                          at + turned({-size * 0.5, size}, angle)};
                 s.canvas.polygon(triangle, c, 0.88);
                 break;
             }
@@ -122,22 +155,31 @@ Label improvisation(Studio& s) {
                 const double angle = s.random.between(-0.7, 0.7);
                 for (int k = 0; k < 16; ++k) {
                     const Point o{(k % 4 - 2) * size * 0.4, (k / 4 - 2) * size * 0.4};
-                    const Point q[] = {at + turned(o, angle), at + turned(o + Point{size * 0.4, 0}, angle), at + turned(o + Point{size * 0.4, size * 0.4}, angle), at + turned(o + Point{0, size * 0.4}, angle)};
-                    s.canvas.polygon(q, (k + k / 4) % 2 == 0 ? c : Color{0.02, 0.02, 0.03}, 0.9);
+                    const Point q[] = {
+                        at + turned(o, angle),
+                        at + turned(o + Point{size * 0.4, 0}, angle),
+                        at + turned(o + Point{size * 0.4, size * 0.4}, angle),
+                        at + turned(o + Point{0, size * 0.4}, angle)};
+                    s.canvas.polygon(
+                        q, (k + k / 4) % 2 == 0 ? c : Color{0.02, 0.02, 0.03}, 0.9);
                 }
                 break;
             }
             case 3: {  // a half disc
                 std::vector<Point> half;
                 const double angle = s.random.between(0, kTurn);
-                for (int k = 0; k <= 24; ++k) half.push_back(at + turned({size * 1.1, 0}, angle + kPi * k / 24));
+                for (int k = 0; k <= 24; ++k)
+                    half.push_back(at + turned({size * 1.1, 0}, angle + kPi * k / 24));
                 s.canvas.polygon(half, c, 0.92);
                 break;
             }
             default: {  // a serpent
                 std::vector<Point> way;
                 const double angle = s.random.between(-1, 1);
-                for (int k = 0; k < 7; ++k) way.push_back(at + turned({(k - 3) * size * 0.5, (k % 2 == 0 ? 1 : -1) * size * 0.35}, angle));
+                for (int k = 0; k < 7; ++k)
+                    way.push_back(at + turned({(k - 3) * size * 0.5,
+                                               (k % 2 == 0 ? 1 : -1) * size * 0.35},
+                                              angle));
                 s.canvas.taper(smooth_path(way, 10), 0.02, 0.006, c);
                 break;
             }
@@ -146,8 +188,10 @@ Label improvisation(Studio& s) {
     const Color ink{0.015, 0.015, 0.02};
     for (int i = 0; i < 9; ++i) {
         const Point a = spot();
-        const Point b = a + turned({s.random.between(0.2, 0.7), 0}, s.random.between(0, kTurn));
-        const Point bend = (a + b) * 0.5 + Point{s.random.bell() * 0.08, s.random.bell() * 0.08};
+        const Point b =
+            a + turned({s.random.between(0.2, 0.7), 0}, s.random.between(0, kTurn));
+        const Point bend =
+            (a + b) * 0.5 + Point{s.random.bell() * 0.08, s.random.bell() * 0.08};
         const Point way[] = {a, bend, b};
         s.canvas.taper(smooth_path(way, 12), s.random.between(0.002, 0.008), 0.0015, ink);
     }
@@ -158,16 +202,22 @@ Label improvisation(Studio& s) {
 Label colour_field(Studio& s) {
     const Color ground = s.tone(s.random.between(0.35, 0.7), 0.16);
     const std::uint32_t seed = s.random.noise_seed();
-    s.canvas.cover([&](Point p) { return ground * (1 + 0.14 * fbm(p.x * 3, p.y * 3, 4, seed)); });
+    s.canvas.cover(
+        [&](Point p) { return ground * (1 + 0.14 * fbm(p.x * 3, p.y * 3, 4, seed)); });
     const int bands = 2 + s.random.below(2);
     double y = 0.06;
     for (int i = 0; i < bands; ++i) {
-        const double height = i == bands - 1 ? 0.94 - y : (0.9 - y) * s.random.between(0.3, 0.65);
-        const Point corners[] = {{0.07, y}, {s.w() - 0.07, y}, {s.w() - 0.07, y + height - 0.03}, {0.07, y + height - 0.03}};
+        const double height =
+            i == bands - 1 ? 0.94 - y : (0.9 - y) * s.random.between(0.3, 0.65);
+        const Point corners[] = {{0.07, y},
+                                 {s.w() - 0.07, y},
+                                 {s.w() - 0.07, y + height - 0.03},
+                                 {0.07, y + height - 0.03}};
         const Color c = s.tone(s.random.between(0.35, 0.88), 0.2);
-        s.canvas.shade(soften(s.canvas.frame(), cover_polygon(s.canvas.frame(), corners), 0.012), 0.92, [&](Point p) {
-            return c * (1 + 0.2 * fbm(p.x * 4, p.y * 7, 4, seed + 7));
-        });
+        s.canvas.shade(
+            soften(s.canvas.frame(), cover_polygon(s.canvas.frame(), corners), 0.012),
+            0.92,
+            [&](Point p) { return c * (1 + 0.2 * fbm(p.x * 4, p.y * 7, 4, seed + 7)); });
         y += height + 0.01;
     }
     return {"Colour field", {"abstract", "colour field"}};
@@ -181,8 +231,11 @@ Label bauhaus(Studio& s) {
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const Point low{i * width, j * height};
-            const auto at = [&](double x, double y) { return low + Point{x * width, y * height}; };
-            s.canvas.rectangle(low, at(1, 1), s.random.chance(0.35) ? s.paper() : s.vivid());
+            const auto at = [&](double x, double y) {
+                return low + Point{x * width, y * height};
+            };
+            s.canvas.rectangle(
+                low, at(1, 1), s.random.chance(0.35) ? s.paper() : s.vivid());
             const Color c = s.random.chance(0.2) ? Color{0.02, 0.02, 0.03} : s.vivid();
             switch (s.random.below(5)) {
                 case 0: {  // a quarter disc
@@ -192,22 +245,33 @@ Label bauhaus(Studio& s) {
                     std::vector<Point> fan{at(cx, cy)};
                     for (int k = 0; k <= 16; ++k) {
                         const double a = kPi / 2 * k / 16;
-                        fan.push_back(at(cx + (1 - 2 * cx) * cosine(a), cy + (1 - 2 * cy) * sine(a)));
+                        fan.push_back(at(cx + (1 - 2 * cx) * cosine(a),
+                                         cy + (1 - 2 * cy) * sine(a)));
                     }
                     s.canvas.polygon(fan, c);
                     break;
                 }
                 case 1:
-                    s.canvas.fill(cover_ellipse(s.canvas.frame(), at(0.5, 0.5), width * 0.42, height * 0.42, 0), c);
-                    s.canvas.fill(cover_ellipse(s.canvas.frame(), at(0.5, 0.5), width * 0.2, height * 0.2, 0), s.vivid());
+                    s.canvas.fill(cover_ellipse(s.canvas.frame(),
+                                                at(0.5, 0.5),
+                                                width * 0.42,
+                                                height * 0.42,
+                                                0),
+                                  c);
+                    s.canvas.fill(
+                        cover_ellipse(
+                            s.canvas.frame(), at(0.5, 0.5), width * 0.2, height * 0.2, 0),
+                        s.vivid());
                     break;
                 case 2: {
-                    const Point triangle[] = {at(0, 0), at(1, s.random.below(2)), at(0, 1)};
+                    const Point triangle[] = {
+                        at(0, 0), at(1, s.random.below(2)), at(0, 1)};
                     s.canvas.polygon(triangle, c);
                     break;
                 }
                 case 3:
-                    for (int k = 0; k < 4; ++k) s.canvas.rectangle(at(0, k / 4.0), at(1, k / 4.0 + 0.125), c);
+                    for (int k = 0; k < 4; ++k)
+                        s.canvas.rectangle(at(0, k / 4.0), at(1, k / 4.0 + 0.125), c);
                     break;
                 default: {  // two half discs
                     for (const double x : {0.0, 0.5}) {
@@ -228,16 +292,26 @@ Label bauhaus(Studio& s) {
 
 Label marbling(Studio& s) {
     const std::uint32_t seed = s.random.noise_seed();
-    const Ramp ramp{oklch(0.25, 0.1, s.hues[0]), oklch(0.55, 0.2, s.hues[0]), oklch(0.93, 0.05, s.hues[3]), oklch(0.7, 0.19, s.hues[2]), oklch(0.38, 0.16, s.hues[1]), oklch(0.85, 0.15, s.hues[4]), oklch(0.25, 0.1, s.hues[0])};
+    const Ramp ramp{oklch(0.25, 0.1, s.hues[0]),
+                    oklch(0.55, 0.2, s.hues[0]),
+                    oklch(0.93, 0.05, s.hues[3]),
+                    oklch(0.7, 0.19, s.hues[2]),
+                    oklch(0.38, 0.16, s.hues[1]),
+                    oklch(0.85, 0.15, s.hues[4]),
+                    oklch(0.25, 0.1, s.hues[0])};
     const double scale = s.random.between(0.8, 1.6);
     const double strength = s.random.between(0.5, 1.1);
     const double lines = s.random.between(1.5, 4);
     s.canvas.cover([&](Point p) {
         const double a = fbm(p.x * scale, p.y * scale, 3, seed);
         const double b = fbm(p.x * scale + 5.2, p.y * scale + 1.3, 3, seed + 1);
-        const double c = fbm(p.x * scale + strength * 2 * a, p.y * scale + strength * 2 * b, 4, seed + 2);
-        const double vein = smoothstep(0.05, 0.0, std::fabs(noise(p.x * 2 + 3 * a, p.y * 2 + 3 * c, seed + 4)));
-        return mix(ramp.around(lines * c + 0.6 * a + 10), oklch(0.88, 0.12, s.hues[3]), 0.4 * vein);
+        const double c = fbm(
+            p.x * scale + strength * 2 * a, p.y * scale + strength * 2 * b, 4, seed + 2);
+        const double vein = smoothstep(
+            0.05, 0.0, std::fabs(noise(p.x * 2 + 3 * a, p.y * 2 + 3 * c, seed + 4)));
+        return mix(ramp.around(lines * c + 0.6 * a + 10),
+                   oklch(0.88, 0.12, s.hues[3]),
+                   0.4 * vein);
     });
     return {"Marbled paper", {"abstract", "marble"}};
 }
@@ -247,7 +321,8 @@ Label stained_glass(Studio& s) {
     const double scale = s.random.between(3.5, 7);
     const Point light{s.w() * s.random.between(0.3, 0.7), s.random.between(0.25, 0.75)};
     std::vector<Color> glass;
-    for (int i = 0; i < 24; ++i) glass.push_back(s.tone(s.random.between(0.42, 0.88), 0.22));
+    for (int i = 0; i < 24; ++i)
+        glass.push_back(s.tone(s.random.between(0.42, 0.88), 0.22));
     const double ring = s.random.between(0.18, 0.3);
     s.canvas.cover([&](Point p) {
         const Point d = p - light;
@@ -255,9 +330,13 @@ Label stained_glass(Studio& s) {
         // Within the rose the cells turn around its middle.
         const bool rose = r < ring;
         const double theta = arc_tangent(d.y, d.x) / kPi + 1;
-        const Cell c = rose ? cell(theta * 6, r / ring * 2.4, seed + 3) : cell(p.x * scale, p.y * scale, seed);
-        const double lead = smoothstep(0.03, 0.075, c.second - c.nearest) * smoothstep(0.006, 0.012, std::fabs(r - ring));
-        const Color pane = glass[(c.id >> 5) % glass.size()] * (0.65 + 1.1 * exponential(-2.2 * r * r) + 0.14 * noise(p.x * 30, p.y * 30, seed + 9));
+        const Cell c = rose ? cell(theta * 6, r / ring * 2.4, seed + 3)
+                            : cell(p.x * scale, p.y * scale, seed);
+        const double lead = smoothstep(0.03, 0.075, c.second - c.nearest) *
+                            smoothstep(0.006, 0.012, std::fabs(r - ring));
+        const Color pane = glass[(c.id >> 5) % glass.size()] *
+                           (0.65 + 1.1 * exponential(-2.2 * r * r) +
+                            0.14 * noise(p.x * 30, p.y * 30, seed + 9));
         return mix(Color{0.008, 0.008, 0.01}, pane, lead);
     });
     return {"Stained glass", {"abstract", "glass"}};
@@ -277,7 +356,8 @@ Label ribbons(Studio& s) {
         std::vector<Point> under;
         for (int k = -2; k <= 62; ++k) {
             const double x = s.w() * k / 60;
-            const double y = level + 0.13 * sine(x * kTurn * frequency + phase) + angle * (x - s.w() / 2);
+            const double y = level + 0.13 * sine(x * kTurn * frequency + phase) +
+                             angle * (x - s.w() / 2);
             const double half = height * (0.35 + 0.3 * sine(x * 4 + phase * 3));
             outline.push_back({x, y - half});
             under.push_back({x, y + half});
@@ -305,7 +385,9 @@ Label cutouts(Studio& s) {
             const double width = s.w() / columns;
             const double height = 1.0 / rows;
             const Point low{i * width, j * height};
-            s.canvas.rectangle(low, low + Point{width, height}, s.random.chance(0.3) ? s.paper() : s.vivid());
+            s.canvas.rectangle(low,
+                               low + Point{width, height},
+                               s.random.chance(0.3) ? s.paper() : s.vivid());
             // A frond as if cut with scissors: lobes along a bent stem.
             const Color c = s.random.chance(0.25) ? s.paper() : s.vivid();
             const Point centre = low + Point{width / 2, height / 2};
@@ -316,14 +398,18 @@ Label cutouts(Studio& s) {
                 const double t = (k + 0.5) / lobes;
                 for (const double side : {-1.0, 1.0}) {
                     const Point root = centre + turned({0, size * (1 - 1.9 * t)}, angle);
-                    const double reach = size * mix(1.0, 0.45, t) * s.random.between(0.85, 1.1);
-                    const Point tip = root + turned({side * reach * 0.85, -reach * 0.55}, angle);
-                    const Point way[] = {root, (root + tip) * 0.5 + turned({0, size * 0.12}, angle), tip};
+                    const double reach =
+                        size * mix(1.0, 0.45, t) * s.random.between(0.85, 1.1);
+                    const Point tip =
+                        root + turned({side * reach * 0.85, -reach * 0.55}, angle);
+                    const Point way[] = {
+                        root, (root + tip) * 0.5 + turned({0, size * 0.12}, angle), tip};
                     const auto path = smooth_path(way, 8);
                     s.canvas.taper(path, size * 0.13, size * 0.075, c);
                 }
             }
-            const Point stem[] = {centre + turned({0, size * 1.05}, angle), centre + turned({0, -size * 1.0}, angle)};
+            const Point stem[] = {centre + turned({0, size * 1.05}, angle),
+                                  centre + turned({0, -size * 1.0}, angle)};
             s.canvas.taper(stem, size * 0.1, size * 0.08, c);
         }
     }
@@ -336,21 +422,32 @@ Label facets(Studio& s) {
     const int rows = 6 + s.random.below(6);
     const int columns = static_cast<int>(rows * s.w()) + 1;
     const std::uint32_t seed = s.random.noise_seed();
-    const Ramp ramp{oklch(0.25, 0.12, s.hues[0]), oklch(0.55, 0.2, s.hues[2]), oklch(0.75, 0.18, s.hues[1]), oklch(0.94, 0.09, s.hues[3])};
+    const Ramp ramp{oklch(0.25, 0.12, s.hues[0]),
+                    oklch(0.55, 0.2, s.hues[2]),
+                    oklch(0.75, 0.18, s.hues[1]),
+                    oklch(0.94, 0.09, s.hues[3])};
     const auto node = [&](int i, int j) {
-        return Point{(i + 0.7 * (lattice_unit(i, j, seed) - 0.5)) * s.w() / columns, (j + 0.7 * (lattice_unit(i, j, seed + 1) - 0.5)) / rows};
+        return Point{(i + 0.7 * (lattice_unit(i, j, seed) - 0.5)) * s.w() / columns,
+                     (j + 0.7 * (lattice_unit(i, j, seed + 1) - 0.5)) / rows};
     };
     const Point focus{s.w() * s.random.unit(), s.random.unit()};
     for (int j = -1; j <= rows; ++j) {
         for (int i = -1; i <= columns; ++i) {
-            const Point corners[4] = {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
+            const Point corners[4] = {
+                node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
             for (const int half : {0, 1}) {
-                const Point triangle[] = {corners[0], corners[half + 1], corners[half + 2]};
+                const Point triangle[] = {
+                    corners[0], corners[half + 1], corners[half + 2]};
                 const Point c = (triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3);
-                const double t = 1.05 - length(c - focus) * 0.75 + 0.35 * noise(c.x * 2.2, c.y * 2.2, seed + 2) + 0.16 * (lattice_unit(i, 2 * j + half, seed + 3) - 0.5);
+                const double t = 1.05 - length(c - focus) * 0.75 +
+                                 0.35 * noise(c.x * 2.2, c.y * 2.2, seed + 2) +
+                                 0.16 * (lattice_unit(i, 2 * j + half, seed + 3) - 0.5);
                 // Grown a little, so that no seam of the ground shows between neighbours.
                 std::vector<Point> grown;
-                for (const Point& p : triangle) grown.push_back(c + (p - c) * 1.02 + (p - c) * (s.canvas.pixel() / std::max(1e-6, length(p - c))));
+                for (const Point& p : triangle)
+                    grown.push_back(
+                        c + (p - c) * 1.02 +
+                        (p - c) * (s.canvas.pixel() / std::max(1e-6, length(p - c))));
                 s.canvas.polygon(grown, ramp.at(t));
             }
         }
@@ -362,7 +459,16 @@ Label facets(Studio& s) {
 
 Label paint_abstract(Canvas& canvas, Commission& commission) {
     Studio studio{canvas, commission.random, harmony(commission.random, commission.hue)};
-    static constexpr std::array kScenes = {neoplastic, marbling, circles_in_squares, ribbons, colour_field, stained_glass, improvisation, facets, bauhaus, cutouts};
+    static constexpr std::array kScenes = {neoplastic,
+                                           marbling,
+                                           circles_in_squares,
+                                           ribbons,
+                                           colour_field,
+                                           stained_glass,
+                                           improvisation,
+                                           facets,
+                                           bauhaus,
+                                           cutouts};
     return kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](studio);
 }
 

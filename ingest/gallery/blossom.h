@@ -25,7 +25,12 @@ void paint_petal(Canvas& canvas,
                  double shadow);
 
 // A midrib, side veins, one half lighter than the other.
-void paint_leaf(Canvas& canvas, Point root, double angle, double size, double breadth, const Color& color);
+void paint_leaf(Canvas& canvas,
+                Point root,
+                double angle,
+                double size,
+                double breadth,
+                const Color& color);
 
 enum class Species { kDaisy, kRose, kSunflower, kPoppy, kLotus, kTulip, kPansy, kDahlia };
 inline constexpr int kSpecies = 8;
@@ -33,6 +38,11 @@ inline constexpr int kSpecies = 8;
 [[nodiscard]] const char* name_of(Species species);
 
 // Around `centre`, of this radius, in colours about `hue`.
-void paint_blossom(Canvas& canvas, Species species, Point centre, double radius, double hue, Random& random);
+void paint_blossom(Canvas& canvas,
+                   Species species,
+                   Point centre,
+                   double radius,
+                   double hue,
+                   Random& random);
 
 }  // namespace haarmony::gallery

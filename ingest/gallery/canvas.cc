@@ -16,9 +16,8 @@ Color Canvas::sample(Point p) const {
     const int y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, width() - 1);
     const int y1 = std::min(y0 + 1, height() - 1);
-    return mix(mix(at(x0, y0), at(x1, y0), x - x0),
-               mix(at(x0, y1), at(x1, y1), x - x0),
-               y - y0);
+    return mix(
+        mix(at(x0, y0), at(x1, y0), x - x0), mix(at(x0, y1), at(x1, y1), x - x0), y - y0);
 }
 
 void Canvas::fill(const Mask& mask, const Color& color, double opacity) {
@@ -60,8 +59,11 @@ void Canvas::rectangle(Point low, Point high, const Color& color, double opacity
     polygon(corners, color, opacity);
 }
 
-void Canvas::line(
-    Point from, Point to, double radius, const Color& color, double opacity) {
+void Canvas::line(Point from,
+                  Point to,
+                  double radius,
+                  const Color& color,
+                  double opacity) {
     const Point points[] = {from, to};
     taper(points, radius, radius, color, opacity);
 }

@@ -76,7 +76,11 @@ class Canvas {
     void polygon(std::span<const Point> outline, const Color& color, double opacity = 1);
     void disc(Point centre, double radius, const Color& color, double opacity = 1);
     void rectangle(Point low, Point high, const Color& color, double opacity = 1);
-    void line(Point from, Point to, double radius, const Color& color, double opacity = 1);
+    void line(Point from,
+              Point to,
+              double radius,
+              const Color& color,
+              double opacity = 1);
     // A line that thins out.
     void taper(std::span<const Point> points,
                double radius_from,
@@ -90,7 +94,8 @@ class Canvas {
         for (int row = 0; row < mask.height; ++row) {
             const int y = mask.top + row;
             if (y < 0 || y >= height()) continue;
-            const float* line = &mask.coverage[static_cast<std::size_t>(row) * mask.width];
+            const float* line =
+                &mask.coverage[static_cast<std::size_t>(row) * mask.width];
             for (int column = 0; column < mask.width; ++column) {
                 const int x = mask.left + column;
                 if (line[column] > 0 && x >= 0 && x < width()) work(x, y, line[column]);

@@ -121,7 +121,12 @@ class AreaSum {
 };
 
 // One slanted brush mark: the distance to a segment whose radius changes along it.
-void stroke_segment(const Frame& frame, Mask& mask, Point a, Point b, double ra, double rb) {
+void stroke_segment(const Frame& frame,
+                    Mask& mask,
+                    Point a,
+                    Point b,
+                    double ra,
+                    double rb) {
     const double unit = frame.height;
     const double reach = std::max(ra, rb) * unit + 1;
     const Point p{a.x * unit, a.y * unit};
@@ -142,8 +147,7 @@ void stroke_segment(const Frame& frame, Mask& mask, Point a, Point b, double ra,
         float* row = &mask.coverage[static_cast<std::size_t>(y - top) * mask.width];
         for (int x = x0; x < x1; ++x) {
             const Point q{x + 0.5 - p.x, y + 0.5 - p.y};
-            const double t =
-                square > 0 ? clamp01((q.x * d.x + q.y * d.y) / square) : 0.0;
+            const double t = square > 0 ? clamp01((q.x * d.x + q.y * d.y) / square) : 0.0;
             const double radius = mix(ra, rb, t) * unit;
             const double ex = q.x - d.x * t;
             const double ey = q.y - d.y * t;
@@ -198,8 +202,11 @@ Mask cover_disc(const Frame& frame, Point centre, double radius) {
     return cover_stroke(frame, {&centre, 1}, radii);
 }
 
-Mask cover_ellipse(
-    const Frame& frame, Point centre, double radius_x, double radius_y, double angle) {
+Mask cover_ellipse(const Frame& frame,
+                   Point centre,
+                   double radius_x,
+                   double radius_y,
+                   double angle) {
     constexpr int kCorners = 96;
     std::vector<Point> outline;
     outline.reserve(kCorners);
@@ -237,7 +244,8 @@ Mask soften(const Frame& frame, const Mask& mask, double radius) {
     if (mask.empty()) return {};
     // Three box blurs of this half width have the deviation of the wanted Gaussian.
     const double deviation = radius * frame.height;
-    const int half = std::max(1, floor_int((std::sqrt(4 * deviation * deviation + 1) - 1) / 2 + 0.5));
+    const int half =
+        std::max(1, floor_int((std::sqrt(4 * deviation * deviation + 1) - 1) / 2 + 0.5));
     const int pad = 3 * half;
     Mask soft;
     soft.left = mask.left - pad;

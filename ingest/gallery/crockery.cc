@@ -26,7 +26,14 @@ double highlight(const Lamp& lamp, double nx, double ny, double nz, double sharp
 
 // A ball that may be squeezed: tone(nx, ny, nz) is its colour.
 template <typename F>
-void ball(Canvas& canvas, const Lamp& lamp, Point centre, double rx, double ry, double angle, double shine, F&& tone) {
+void ball(Canvas& canvas,
+          const Lamp& lamp,
+          Point centre,
+          double rx,
+          double ry,
+          double angle,
+          double shine,
+          F&& tone) {
     const double c = cosine(-angle);
     const double s = sine(-angle);
     canvas.shade(cover_ellipse(canvas.frame(), centre, rx, ry, angle), 1, [&](Point p) {
@@ -37,7 +44,8 @@ void ball(Canvas& canvas, const Lamp& lamp, Point centre, double rx, double ry, 
         const double nx = u * c + v * s;
         const double ny = -u * s + v * c;
         Color color = lit(tone(u, v, z), lamp, nx, ny, z);
-        return color + lamp.light * (shine * highlight(lamp, nx, ny, z, 60) + 0.18 * shine * highlight(lamp, nx, ny, z, 9));
+        return color + lamp.light * (shine * highlight(lamp, nx, ny, z, 60) +
+                                     0.18 * shine * highlight(lamp, nx, ny, z, 9));
     });
 }
 
@@ -47,9 +55,13 @@ void stalk(Canvas& canvas, Point from, Point to, double radius) {
 }
 
 void leaf(Canvas& canvas, Point root, double angle, double size, const Lamp& lamp) {
-    const Point corners[] = {root, root + turned({-size * 0.22, -size * 0.5}, angle), root + turned({0, -size}, angle), root + turned({size * 0.22, -size * 0.5}, angle)};
+    const Point corners[] = {root,
+                             root + turned({-size * 0.22, -size * 0.5}, angle),
+                             root + turned({0, -size}, angle),
+                             root + turned({size * 0.22, -size * 0.5}, angle)};
     const Color green = oklch(0.52, 0.13, kGreen);
-    canvas.polygon(smooth_outline(corners, 8), green * (lamp.light * 0.8 + lamp.shade * 0.4));
+    canvas.polygon(smooth_outline(corners, 8),
+                   green * (lamp.light * 0.8 + lamp.shade * 0.4));
     canvas.line(root, root + turned({0, -size * 0.9}, angle), size * 0.015, green * 0.5);
 }
 
@@ -59,8 +71,13 @@ void grapes(Canvas& canvas, const Lamp& lamp, Point at, double size, Random& ran
     const double r = size * 0.27;
     for (int row = 5; row >= 0; --row) {
         for (int i = 0; i <= 6 - row; ++i) {
-            const Point p = at + Point{(i - (6 - row) / 2.0) * r * 1.35 + random.bell() * r * 0.16 - lamp.side * row * r * 0.2, -r - (row * 0.92) * r * 1.2 + random.bell() * r * 0.12};
-            ball(canvas, lamp, p, r, r * 1.08, 0, 0.75, [&](double u, double v, double) { return skin * (1 + 0.18 * noise(u * 2, v * 2, 3)); });
+            const Point p =
+                at + Point{(i - (6 - row) / 2.0) * r * 1.35 + random.bell() * r * 0.16 -
+                               lamp.side * row * r * 0.2,
+                           -r - (row * 0.92) * r * 1.2 + random.bell() * r * 0.12};
+            ball(canvas, lamp, p, r, r * 1.08, 0, 0.75, [&](double u, double v, double) {
+                return skin * (1 + 0.18 * noise(u * 2, v * 2, 3));
+            });
         }
     }
 }
@@ -68,19 +85,38 @@ void grapes(Canvas& canvas, const Lamp& lamp, Point at, double size, Random& ran
 }  // namespace
 
 const char* name_of(Fruit fruit) {
-    static constexpr const char* kNames[] = {"apples", "mandarins", "lemons", "pears", "plums", "peaches", "grapes", "pomegranates", "melon"};
+    static constexpr const char* kNames[] = {"apples",
+                                             "mandarins",
+                                             "lemons",
+                                             "pears",
+                                             "plums",
+                                             "peaches",
+                                             "grapes",
+                                             "pomegranates",
+                                             "melon"};
     return kNames[static_cast<int>(fruit)];
 }
 
-void paint_cast_shadow(Canvas& canvas, const Lamp& lamp, Point at, double half, double height) {
-    const Point away{at.x - lamp.side * (half * 0.55 + height * 0.22), at.y - half * 0.04};
-    const Mask far = cover_ellipse(canvas.frame(), away, half * 1.15 + height * 0.22, half * 0.3, 0);
+void paint_cast_shadow(Canvas& canvas,
+                       const Lamp& lamp,
+                       Point at,
+                       double half,
+                       double height) {
+    const Point away{at.x - lamp.side * (half * 0.55 + height * 0.22),
+                     at.y - half * 0.04};
+    const Mask far =
+        cover_ellipse(canvas.frame(), away, half * 1.15 + height * 0.22, half * 0.3, 0);
     canvas.glaze(soften(canvas.frame(), far, 0.02), {0.18, 0.17, 0.24}, 0.72);
     const Mask near = cover_ellipse(canvas.frame(), at, half * 0.85, half * 0.2, 0);
     canvas.glaze(soften(canvas.frame(), near, 0.007), {0.1, 0.09, 0.12}, 0.8);
 }
 
-void paint_fruit(Canvas& canvas, const Lamp& lamp, Fruit fruit, Point at, double size, Random& random) {
+void paint_fruit(Canvas& canvas,
+                 const Lamp& lamp,
+                 Fruit fruit,
+                 Point at,
+                 double size,
+                 Random& random) {
     const std::uint32_t seed = random.noise_seed();
     const Point middle = at - Point{0, size};
     switch (fruit) {
@@ -89,58 +125,143 @@ void paint_fruit(Canvas& canvas, const Lamp& lamp, Fruit fruit, Point at, double
             const Color base = oklch(hue == kRed ? 0.5 : 0.76, 0.19, hue);
             const Color blush = oklch(0.8, 0.15, hue == kRed ? kGold : 0.1);
             const Point top = middle - Point{0, size * 0.72};
-            ball(canvas, lamp, middle, size * 1.04, size * 0.97, 0, 0.55, [&](double u, double v, double z) {
-                const double streak = noise(u * 9 / (0.3 + z), v * 2.5, seed);
-                const double hollow = smoothstep(0.05, 0.42, std::sqrt(u * u + (v + 0.72) * (v + 0.72) * 4));
-                return mix(base, blush, clamp01(0.2 + 0.5 * streak - 0.4 * v * 0.6)) * (0.45 + 0.55 * hollow);
-            });
+            ball(
+                canvas,
+                lamp,
+                middle,
+                size * 1.04,
+                size * 0.97,
+                0,
+                0.55,
+                [&](double u, double v, double z) {
+                    const double streak = noise(u * 9 / (0.3 + z), v * 2.5, seed);
+                    const double hollow = smoothstep(
+                        0.05, 0.42, std::sqrt(u * u + (v + 0.72) * (v + 0.72) * 4));
+                    return mix(base, blush, clamp01(0.2 + 0.5 * streak - 0.4 * v * 0.6)) *
+                           (0.45 + 0.55 * hollow);
+                });
             stalk(canvas, top, top + Point{size * 0.16, -size * 0.42}, size * 0.035);
-            if (random.chance(0.5)) leaf(canvas, top + Point{size * 0.05, -size * 0.12}, 1.1, size * 0.6, lamp);
+            if (random.chance(0.5))
+                leaf(canvas,
+                     top + Point{size * 0.05, -size * 0.12},
+                     1.1,
+                     size * 0.6,
+                     lamp);
             return;
         }
         case Fruit::kMandarin:
-            ball(canvas, lamp, middle, size, size * 0.97, 0, 0.4, [&](double u, double v, double z) {
-                const double pore = noise(u * 26 / (0.5 + z), v * 26 / (0.5 + z), seed);
-                return oklch(0.72, 0.18, 0.16) * (1 + 0.09 * pore);
-            });
-            canvas.disc(middle - Point{size * 0.1, size * 0.8}, size * 0.06, oklch(0.4, 0.08, kGreen));
+            ball(canvas,
+                 lamp,
+                 middle,
+                 size,
+                 size * 0.97,
+                 0,
+                 0.4,
+                 [&](double u, double v, double z) {
+                     const double pore =
+                         noise(u * 26 / (0.5 + z), v * 26 / (0.5 + z), seed);
+                     return oklch(0.72, 0.18, 0.16) * (1 + 0.09 * pore);
+                 });
+            canvas.disc(middle - Point{size * 0.1, size * 0.8},
+                        size * 0.06,
+                        oklch(0.4, 0.08, kGreen));
             return;
         case Fruit::kLemon: {
             const double angle = random.between(-0.5, 0.5);
             const Color skin = oklch(0.88, 0.18, 0.29);
             const Point centre = at - Point{0, size * 0.82};
-            ball(canvas, lamp, centre + turned({-size * 1.12, 0}, angle), size * 0.26, size * 0.2, angle, 0.2, [&](double, double, double) { return skin * 0.9; });
-            ball(canvas, lamp, centre + turned({size * 1.1, 0}, angle), size * 0.24, size * 0.2, angle, 0.2, [&](double, double, double) { return skin * 0.9; });
-            ball(canvas, lamp, centre, size * 1.15, size * 0.82, angle, 0.45, [&](double u, double v, double) { return skin * (1 + 0.07 * noise(u * 20, v * 16, seed)); });
+            ball(canvas,
+                 lamp,
+                 centre + turned({-size * 1.12, 0}, angle),
+                 size * 0.26,
+                 size * 0.2,
+                 angle,
+                 0.2,
+                 [&](double, double, double) { return skin * 0.9; });
+            ball(canvas,
+                 lamp,
+                 centre + turned({size * 1.1, 0}, angle),
+                 size * 0.24,
+                 size * 0.2,
+                 angle,
+                 0.2,
+                 [&](double, double, double) { return skin * 0.9; });
+            ball(canvas,
+                 lamp,
+                 centre,
+                 size * 1.15,
+                 size * 0.82,
+                 angle,
+                 0.45,
+                 [&](double u, double v, double) {
+                     return skin * (1 + 0.07 * noise(u * 20, v * 16, seed));
+                 });
             return;
         }
         case Fruit::kPear: {
             const Color skin = oklch(0.78, 0.15, random.pick({0.3, 0.33, 0.25}));
             const Color blush = oklch(0.6, 0.18, 0.09);
-            const auto tone = [&](double u, double v, double) { return mix(skin, blush, clamp01(0.4 * noise(u * 2 + 4, v * 2, seed) + 0.35 * u * lamp.side + 0.1)); };
+            const auto tone = [&](double u, double v, double) {
+                return mix(skin,
+                           blush,
+                           clamp01(0.4 * noise(u * 2 + 4, v * 2, seed) +
+                                   0.35 * u * lamp.side + 0.1));
+            };
             const double lean = random.between(-0.2, 0.2);
             const Point neck = middle + turned({0, -size * 1.0}, lean);
-            stalk(canvas, neck - Point{0, size * 0.4}, neck + turned({0, -size * 0.95}, lean), size * 0.04);
+            stalk(canvas,
+                  neck - Point{0, size * 0.4},
+                  neck + turned({0, -size * 0.95}, lean),
+                  size * 0.04);
             for (int i = 8; i >= 0; --i) {
                 const double t = i / 8.0;
                 const double r = size * mix(1.0, 0.48, smoothstep(0.0, 0.9, t));
-                ball(canvas, lamp, middle + (neck - middle) * t, r, r, 0, i == 0 ? 0.4 : 0.0, tone);
+                ball(canvas,
+                     lamp,
+                     middle + (neck - middle) * t,
+                     r,
+                     r,
+                     0,
+                     i == 0 ? 0.4 : 0.0,
+                     tone);
             }
             return;
         }
         case Fruit::kPlum:
-            ball(canvas, lamp, middle, size * 0.95, size, random.between(-0.3, 0.3), 0.35, [&](double u, double v, double z) {
-                const double bloom = smoothstep(0.0, 0.6, fbm(u * 2, v * 2, 3, seed));
-                const double seam = 1 - 0.3 * exponential(-power((u - 0.25 * z) * 9, 2));
-                return mix(oklch(0.34, 0.13, 0.88), oklch(0.58, 0.09, 0.78), bloom * 0.7) * seam;
-            });
+            ball(canvas,
+                 lamp,
+                 middle,
+                 size * 0.95,
+                 size,
+                 random.between(-0.3, 0.3),
+                 0.35,
+                 [&](double u, double v, double z) {
+                     const double bloom =
+                         smoothstep(0.0, 0.6, fbm(u * 2, v * 2, 3, seed));
+                     const double seam =
+                         1 - 0.3 * exponential(-power((u - 0.25 * z) * 9, 2));
+                     return mix(oklch(0.34, 0.13, 0.88),
+                                oklch(0.58, 0.09, 0.78),
+                                bloom * 0.7) *
+                            seam;
+                 });
             return;
         case Fruit::kPeach:
-            ball(canvas, lamp, middle, size * 1.02, size * 0.98, 0, 0.12, [&](double u, double v, double z) {
-                const double blush = smoothstep(-0.3, 0.5, fbm(u * 1.4, v * 1.4 + 3, 3, seed) + 0.3 * u);
-                const double seam = 1 - 0.35 * exponential(-power((u + 0.3 * z) * 8, 2));
-                return mix(oklch(0.85, 0.13, 0.2), oklch(0.62, 0.19, 0.08), blush) * seam;
-            });
+            ball(canvas,
+                 lamp,
+                 middle,
+                 size * 1.02,
+                 size * 0.98,
+                 0,
+                 0.12,
+                 [&](double u, double v, double z) {
+                     const double blush = smoothstep(
+                         -0.3, 0.5, fbm(u * 1.4, v * 1.4 + 3, 3, seed) + 0.3 * u);
+                     const double seam =
+                         1 - 0.35 * exponential(-power((u + 0.3 * z) * 8, 2));
+                     return mix(oklch(0.85, 0.13, 0.2), oklch(0.62, 0.19, 0.08), blush) *
+                            seam;
+                 });
             return;
         case Fruit::kGrapes:
             grapes(canvas, lamp, at, size, random);
@@ -148,10 +269,24 @@ void paint_fruit(Canvas& canvas, const Lamp& lamp, Fruit fruit, Point at, double
         case Fruit::kPomegranate: {
             const Color skin = oklch(0.48, 0.18, 0.06);
             for (int i = 0; i < 5; ++i) {
-                const Point spike[] = {middle - Point{size * 0.2, size * 0.85}, middle + Point{(i - 2) * size * 0.16, -size * 1.4}, middle - Point{-size * 0.2, size * 0.85}};
-                canvas.polygon(spike, skin * (lamp.light * (0.45 + 0.1 * i) + lamp.shade * 0.3));
+                const Point spike[] = {middle - Point{size * 0.2, size * 0.85},
+                                       middle + Point{(i - 2) * size * 0.16, -size * 1.4},
+                                       middle - Point{-size * 0.2, size * 0.85}};
+                canvas.polygon(spike,
+                               skin * (lamp.light * (0.45 + 0.1 * i) + lamp.shade * 0.3));
             }
-            ball(canvas, lamp, middle, size * 1.02, size * 0.98, 0, 0.5, [&](double u, double v, double) { return mix(skin, oklch(0.75, 0.14, 0.17), 0.6 * smoothstep(0.0, 0.7, fbm(u * 3, v * 3, 4, seed))); });
+            ball(canvas,
+                 lamp,
+                 middle,
+                 size * 1.02,
+                 size * 0.98,
+                 0,
+                 0.5,
+                 [&](double u, double v, double) {
+                     return mix(skin,
+                                oklch(0.75, 0.14, 0.17),
+                                0.6 * smoothstep(0.0, 0.7, fbm(u * 3, v * 3, 4, seed)));
+                 });
             return;
         }
         case Fruit::kMelon: {
@@ -160,17 +295,27 @@ void paint_fruit(Canvas& canvas, const Lamp& lamp, Fruit fruit, Point at, double
             const Point top{at.x, at.y - r * 0.98};
             const auto half = [&](double radius) {
                 std::vector<Point> outline;
-                for (int i = 0; i <= 40; ++i) outline.push_back(top + Point{radius * cosine(kPi * i / 40), radius * 0.96 * sine(kPi * i / 40)});
+                for (int i = 0; i <= 40; ++i)
+                    outline.push_back(top + Point{radius * cosine(kPi * i / 40),
+                                                  radius * 0.96 * sine(kPi * i / 40)});
                 return cover_polygon(canvas.frame(), outline);
             };
             const Color bright = lamp.light * 0.85 + lamp.shade * 0.3;
             canvas.fill(half(r), oklch(0.42, 0.12, kGreen) * bright);
             canvas.fill(half(r * 0.93), oklch(0.92, 0.07, kLime) * bright);
-            canvas.shade(half(r * 0.86), 1, [&](Point p) { return oklch(0.62, 0.21, 0.06) * bright * (1 + 0.1 * noise(p.x * 40, p.y * 40, seed)); });
+            canvas.shade(half(r * 0.86), 1, [&](Point p) {
+                return oklch(0.62, 0.21, 0.06) * bright *
+                       (1 + 0.1 * noise(p.x * 40, p.y * 40, seed));
+            });
             for (int i = 0; i < 15; ++i) {
                 const double a = kPi * (i + 0.5) / 15;
                 const double d = r * (i % 2 == 0 ? 0.66 : 0.45);
-                canvas.fill(cover_ellipse(canvas.frame(), top + Point{d * cosine(a), d * sine(a)}, r * 0.03, r * 0.045, kPi / 2 + a), {0.015, 0.01, 0.01});
+                canvas.fill(cover_ellipse(canvas.frame(),
+                                          top + Point{d * cosine(a), d * sine(a)},
+                                          r * 0.03,
+                                          r * 0.045,
+                                          kPi / 2 + a),
+                            {0.015, 0.01, 0.01});
             }
             return;
         }
@@ -187,18 +332,25 @@ void paint_vessel(Canvas& canvas,
     std::vector<Point> side;
     const auto count = static_cast<int>(profile.half_widths.size());
     for (int i = 0; i < count; ++i)
-        side.push_back({profile.half_widths[static_cast<std::size_t>(i)], -profile.height * i / (count - 1)});
+        side.push_back({profile.half_widths[static_cast<std::size_t>(i)],
+                        -profile.height * i / (count - 1)});
     side = smooth_path(side, 10);
     std::vector<Point> outline;
     const double foot = side.front().x;
     const double lip = side.back().x;
     constexpr double kFlat = 0.2;  // how much a level circle is foreshortened
-    for (int i = 0; i <= 16; ++i) outline.push_back(at + Point{-foot * cosine(kPi * i / 16), foot * kFlat * sine(kPi * i / 16)});
+    for (int i = 0; i <= 16; ++i)
+        outline.push_back(
+            at + Point{-foot * cosine(kPi * i / 16), foot * kFlat * sine(kPi * i / 16)});
     for (const Point& p : side) outline.push_back(at + p);
-    for (int i = 0; i <= 16; ++i) outline.push_back(at + Point{lip * cosine(kPi * i / 16), -profile.height - lip * kFlat * sine(kPi * i / 16)});
-    for (auto p = side.rbegin(); p != side.rend(); ++p) outline.push_back(at + Point{-p->x, p->y});
+    for (int i = 0; i <= 16; ++i)
+        outline.push_back(at + Point{lip * cosine(kPi * i / 16),
+                                     -profile.height - lip * kFlat * sine(kPi * i / 16)});
+    for (auto p = side.rbegin(); p != side.rend(); ++p)
+        outline.push_back(at + Point{-p->x, p->y});
     const bool glass = glaze == Glaze::kGlass;
-    canvas.rework([&, mask = cover_polygon(canvas.frame(), outline)](Point p, const Color& below) {
+    canvas.rework([&, mask = cover_polygon(canvas.frame(), outline)](Point p,
+                                                                     const Color& below) {
         const int px = floor_int(p.x * canvas.height());
         const int py = floor_int(p.y * canvas.height());
         const double covered = mask.at(px, py);
@@ -206,51 +358,81 @@ void paint_vessel(Canvas& canvas,
         const double up = clamp01((at.y - p.y) / profile.height);
         const double place = up * static_cast<double>(side.size() - 1);
         const auto k = std::min(static_cast<std::size_t>(place), side.size() - 2);
-        const double width = mix(side[k].x, side[k + 1].x, place - static_cast<double>(k));
+        const double width =
+            mix(side[k].x, side[k + 1].x, place - static_cast<double>(k));
         const double u = clamp((p.x - at.x) / width, -1, 1);
         const double nz = std::sqrt(std::max(0.0, 1 - u * u));
-        const double slope = (side[k + 1].x - side[k].x) / (side[k].y - side[k + 1].y + 1e-9);
+        const double slope =
+            (side[k + 1].x - side[k].x) / (side[k].y - side[k + 1].y + 1e-9);
         const double ny = clamp(slope * -0.7, -0.8, 0.8) * -1;
         const double angle = arc_tangent(u, nz + 1e-6);
         // Level lines bend with the turned form.
         const double level = up + 0.07 * nz * (width / profile.height);
         double drawn = 0;
-        if (glaze == Glaze::kBands) drawn = std::fabs(fraction(level * 5) - 0.5) < 0.17 ? 1 : 0;
+        if (glaze == Glaze::kBands)
+            drawn = std::fabs(fraction(level * 5) - 0.5) < 0.17 ? 1 : 0;
         if (glaze == Glaze::kZigzag)
-            drawn = std::fabs(level - 0.55 - 0.1 * (std::fabs(fraction(angle * 2.2 + 8) - 0.5) * 4 - 1)) < 0.05 || std::fabs(level - 0.82) < 0.03 || std::fabs(level - 0.28) < 0.03 ? 1 : 0;
+            drawn =
+                std::fabs(level - 0.55 -
+                          0.1 * (std::fabs(fraction(angle * 2.2 + 8) - 0.5) * 4 - 1)) <
+                            0.05 ||
+                        std::fabs(level - 0.82) < 0.03 || std::fabs(level - 0.28) < 0.03
+                    ? 1
+                    : 0;
         if (glaze == Glaze::kDots) {
             const double a = fraction(angle * 2.4 + 8) - 0.5;
             const double b = fraction(level * 5) - 0.5;
             drawn = a * a + b * b < 0.075 ? 1 : 0;
         }
         Color c = lit(mix(body, decor, drawn), lamp, u, ny, nz);
-        c = c + lamp.light * (0.55 * highlight(lamp, u, ny * 0.4 - 0.2, nz, 40) + 0.1 * highlight(lamp, u, ny * 0.4, nz, 6));
+        c = c + lamp.light * (0.55 * highlight(lamp, u, ny * 0.4 - 0.2, nz, 40) +
+                              0.1 * highlight(lamp, u, ny * 0.4, nz, 6));
         if (glass) {
             const double rim = power(1 - nz, 2);
             const bool filled = up < 0.6;
-            c = mix(below * mix(Color{1, 1, 1}, body * 1.6, filled ? 0.85 : 0.4), c, 0.18 + 0.6 * rim);
+            c = mix(below * mix(Color{1, 1, 1}, body * 1.6, filled ? 0.85 : 0.4),
+                    c,
+                    0.18 + 0.6 * rim);
             c = c + lamp.light * (0.6 * highlight(lamp, u, -0.25, nz, 90));
         }
         return mix(below, c, covered);
     });
     // The mouth, dark inside.
     const Point mouth = at - Point{0, profile.height};
-    canvas.fill(cover_ellipse(canvas.frame(), mouth, lip, lip * kFlat, 0), lit(body, lamp, 0, -0.7, 0.5), glass ? 0.35 : 1);
-    canvas.fill(cover_ellipse(canvas.frame(), mouth + Point{0, lip * 0.02}, lip * 0.88, lip * kFlat * 0.8, 0), body * lamp.shade * 0.25, glass ? 0.3 : 0.95);
+    canvas.fill(cover_ellipse(canvas.frame(), mouth, lip, lip * kFlat, 0),
+                lit(body, lamp, 0, -0.7, 0.5),
+                glass ? 0.35 : 1);
+    canvas.fill(cover_ellipse(canvas.frame(),
+                              mouth + Point{0, lip * 0.02},
+                              lip * 0.88,
+                              lip * kFlat * 0.8,
+                              0),
+                body * lamp.shade * 0.25,
+                glass ? 0.3 : 0.95);
 }
 
-void paint_candle(Canvas& canvas, const Lamp& lamp, Point at, double height, const Color& wax) {
+void paint_candle(Canvas& canvas,
+                  const Lamp& lamp,
+                  Point at,
+                  double height,
+                  const Color& wax) {
     const double half = height * 0.075;
     const std::array<double, 2> sides = {half, half};
     paint_vessel(canvas, lamp, at, {sides, height}, Glaze::kPlain, wax, wax);
     const Point wick{at.x, at.y - height};
     canvas.line(wick, wick - Point{0, half}, half * 0.12, {0.02, 0.02, 0.02});
-    const Point flame[] = {wick - Point{0, half * 0.6}, wick + Point{-half * 0.6, -half * 1.6}, wick - Point{0, half * 4.2}, wick + Point{half * 0.6, -half * 1.6}};
+    const Point flame[] = {wick - Point{0, half * 0.6},
+                           wick + Point{-half * 0.6, -half * 1.6},
+                           wick - Point{0, half * 4.2},
+                           wick + Point{half * 0.6, -half * 1.6}};
     canvas.glow(wick - Point{0, half * 2}, 0.75, Color{0.42, 0.25, 0.09});
     canvas.glow(wick - Point{0, half * 2}, half * 7, Color{0.9, 0.55, 0.18});
-    canvas.shade(cover_polygon(canvas.frame(), smooth_outline(flame, 8)), 1, [&](Point p) {
-        return mix(Color{3.4, 2.7, 1.4}, Color{2.6, 1.1, 0.2}, clamp01((wick.y - p.y) / (half * 4.2)));
-    });
+    canvas.shade(
+        cover_polygon(canvas.frame(), smooth_outline(flame, 8)), 1, [&](Point p) {
+            return mix(Color{3.4, 2.7, 1.4},
+                       Color{2.6, 1.1, 0.2},
+                       clamp01((wick.y - p.y) / (half * 4.2)));
+        });
 }
 
 }  // namespace haarmony::gallery

@@ -14,21 +14,40 @@ namespace haarmony::gallery {
 
 // Where the light comes from and what it looks like.
 struct Lamp {
-    double side = -1;        // -1 from the left, 1 from the right
+    double side = -1;  // -1 from the left, 1 from the right
     Color light;
-    Color shade;             // what fills the shadows
+    Color shade;  // what fills the shadows
 };
 
-enum class Fruit { kApple, kMandarin, kLemon, kPear, kPlum, kPeach, kGrapes, kPomegranate, kMelon };
+enum class Fruit {
+    kApple,
+    kMandarin,
+    kLemon,
+    kPear,
+    kPlum,
+    kPeach,
+    kGrapes,
+    kPomegranate,
+    kMelon
+};
 inline constexpr int kFruits = 9;
 
 [[nodiscard]] const char* name_of(Fruit fruit);
 
 // Soft, away from the lamp, of a thing of this half width.
-void paint_cast_shadow(Canvas& canvas, const Lamp& lamp, Point at, double half, double height);
+void paint_cast_shadow(Canvas& canvas,
+                       const Lamp& lamp,
+                       Point at,
+                       double half,
+                       double height);
 
 // `size` is its radius. Casts no shadow.
-void paint_fruit(Canvas& canvas, const Lamp& lamp, Fruit fruit, Point at, double size, Random& random);
+void paint_fruit(Canvas& canvas,
+                 const Lamp& lamp,
+                 Fruit fruit,
+                 Point at,
+                 double size,
+                 Random& random);
 
 // A turned vessel: half its width at heights from 0 (foot) to 1 (lip), in picture heights.
 struct Profile {
@@ -47,6 +66,10 @@ void paint_vessel(Canvas& canvas,
                   const Color& body,
                   const Color& decor);
 
-void paint_candle(Canvas& canvas, const Lamp& lamp, Point at, double height, const Color& wax);
+void paint_candle(Canvas& canvas,
+                  const Lamp& lamp,
+                  Point at,
+                  double height,
+                  const Color& wax);
 
 }  // namespace haarmony::gallery

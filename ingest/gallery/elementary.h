@@ -43,13 +43,11 @@ inline constexpr double kTurn = 2 * kPi;
     if (r > kPi / 2) r = kPi - r;
     if (r < -kPi / 2) r = -kPi - r;
     const double s = r * r;
-    return r *
-           (1 +
-            s * (-1.0 / 6 +
-                 s * (1.0 / 120 +
-                      s * (-1.0 / 5040 +
-                           s * (1.0 / 362880 +
-                                s * (-1.0 / 39916800 + s * (1.0 / 6227020800.0)))))));
+    return r * (1 + s * (-1.0 / 6 +
+                         s * (1.0 / 120 +
+                              s * (-1.0 / 5040 + s * (1.0 / 362880 +
+                                                      s * (-1.0 / 39916800 +
+                                                           s * (1.0 / 6227020800.0)))))));
 }
 [[nodiscard]] inline double cosine(double x) { return sine(x + kPi / 2); }
 

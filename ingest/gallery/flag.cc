@@ -24,7 +24,13 @@ struct Cloth {
     [[nodiscard]] double w() const { return canvas.aspect(); }
 };
 
-void star(Canvas& canvas, Point centre, double radius, int points, double depth, double angle, const Color& c) {
+void star(Canvas& canvas,
+          Point centre,
+          double radius,
+          int points,
+          double depth,
+          double angle,
+          const Color& c) {
     std::vector<Point> outline;
     for (int i = 0; i < 2 * points; ++i) {
         const double r = i % 2 == 0 ? radius : radius * depth;
@@ -44,7 +50,9 @@ void emblem(Cloth& f, Point at, double size, const Color& c, const Color& ground
             break;
         case 2: {  // crescent and star
             Mask moon = cover_disc(f.canvas.frame(), at, size * 0.9);
-            moon = without(moon, cover_disc(f.canvas.frame(), at + Point{size * 0.28, 0}, size * 0.72));
+            moon = without(
+                moon,
+                cover_disc(f.canvas.frame(), at + Point{size * 0.28, 0}, size * 0.72));
             f.canvas.fill(moon, c);
             five(at + Point{size * 0.55, 0}, size * 0.42);
             break;
@@ -72,9 +80,13 @@ void emblem(Cloth& f, Point at, double size, const Color& c, const Color& ground
             break;
         }
         default: {  // a tree: a trunk and a crown of discs
-            f.canvas.rectangle(at + Point{-size * 0.1, 0}, at + Point{size * 0.1, size}, c);
+            f.canvas.rectangle(
+                at + Point{-size * 0.1, 0}, at + Point{size * 0.1, size}, c);
             for (int i = 0; i < 5; ++i)
-                f.canvas.disc(at + turned({0, -size * 0.5}, (i - 2) * 0.75) + Point{0, -size * 0.05}, size * 0.38, c);
+                f.canvas.disc(at + turned({0, -size * 0.5}, (i - 2) * 0.75) +
+                                  Point{0, -size * 0.05},
+                              size * 0.38,
+                              c);
             break;
         }
     }
@@ -146,7 +158,8 @@ void canton(Cloth& f) {
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < rows + 1; ++i)
             star(f.canvas,
-                 {corner.x * (i + 0.5 + 0.25 * (j % 2)) / (rows + 1.2), corner.y * (j + 0.5) / rows},
+                 {corner.x * (i + 0.5 + 0.25 * (j % 2)) / (rows + 1.2),
+                  corner.y * (j + 0.5) / rows},
                  0.045,
                  5,
                  0.4,
@@ -156,8 +169,11 @@ void canton(Cloth& f) {
 
 void hoist_triangle(Cloth& f) {
     const Color bands[] = {f.main, f.light, f.accent};
-    stripes(f, false, std::span(bands).first(2 + static_cast<std::size_t>(f.random.below(2))));
-    const Point triangle[] = {{0, 0}, {f.w() * f.random.between(0.36, 0.55), 0.5}, {0, 1}};
+    stripes(f,
+            false,
+            std::span(bands).first(2 + static_cast<std::size_t>(f.random.below(2))));
+    const Point triangle[] = {
+        {0, 0}, {f.w() * f.random.between(0.36, 0.55), 0.5}, {0, 1}};
     f.canvas.polygon(triangle, f.other);
     emblem(f, {f.w() * 0.16, 0.5}, 0.11, f.light, f.other);
 }
@@ -167,13 +183,16 @@ void diagonal(Cloth& f) {
     const Point half[] = {{0, 1}, {f.w(), 0}, {f.w(), 1}};
     f.canvas.polygon(half, f.other);
     f.canvas.line({-0.2, 1 + 0.2 / f.w()}, {f.w() + 0.2, -0.2 / f.w()}, 0.11, f.light);
-    if (f.random.chance(0.7)) f.canvas.line({-0.2, 1 + 0.2 / f.w()}, {f.w() + 0.2, -0.2 / f.w()}, 0.05, f.accent);
+    if (f.random.chance(0.7))
+        f.canvas.line(
+            {-0.2, 1 + 0.2 / f.w()}, {f.w() + 0.2, -0.2 / f.w()}, 0.05, f.accent);
     emblem(f, {f.w() * 0.22, 0.26}, 0.13, f.light, f.main);
 }
 
 void rays(Cloth& f) {
     f.canvas.rectangle({0, 0}, {f.w(), 1}, f.light);
-    const Point centre{f.w() * f.random.pick({0.5, 0.32, 0.5}), f.random.pick({0.5, 0.5, 1.0})};
+    const Point centre{f.w() * f.random.pick({0.5, 0.32, 0.5}),
+                       f.random.pick({0.5, 0.5, 1.0})};
     const int count = 8 + 2 * f.random.below(5);
     for (int i = 0; i < count; ++i) {
         const double a = kTurn * (i + 0.25) / count;
@@ -209,7 +228,8 @@ void waves(Cloth& f) {
         std::vector<Point> outline{{f.w() + 0.1, 1.1}, {-0.1, 1.1}};
         for (int k = -2; k <= 60; ++k) {
             const double x = f.w() * k / 58;
-            outline.push_back({x, 0.42 + 0.15 * i + 0.045 * sine(x * kTurn * 2.2 / f.w() + i * 0.5)});
+            outline.push_back(
+                {x, 0.42 + 0.15 * i + 0.045 * sine(x * kTurn * 2.2 / f.w() + i * 0.5)});
         }
         f.canvas.polygon(outline, bands[i]);
     }
@@ -220,7 +240,8 @@ void bordered(Cloth& f) {
     f.canvas.rectangle({0, 0}, {f.w(), 1}, f.accent);
     f.canvas.rectangle({0.09, 0.09}, {f.w() - 0.09, 0.91}, f.light);
     f.canvas.rectangle({0.13, 0.13}, {f.w() - 0.13, 0.87}, f.main);
-    const Point diamond[] = {{f.w() / 2, 0.17}, {f.w() - 0.2, 0.5}, {f.w() / 2, 0.83}, {0.2, 0.5}};
+    const Point diamond[] = {
+        {f.w() / 2, 0.17}, {f.w() - 0.2, 0.5}, {f.w() / 2, 0.83}, {0.2, 0.5}};
     f.canvas.polygon(diamond, f.light);
     emblem(f, {f.w() / 2, 0.5}, 0.17, f.other, f.light);
 }
@@ -235,13 +256,19 @@ struct Wind {
 
     [[nodiscard]] double height(Point p) const {
         const double along = p.x * frequency + p.y * slant;
-        return strength * (sine(along * kTurn + phase) + 0.35 * sine(along * kTurn * 2.3 + 1.7 * phase) +
+        return strength * (sine(along * kTurn + phase) +
+                           0.35 * sine(along * kTurn * 2.3 + 1.7 * phase) +
                            0.3 * noise(p.x * 2.4, p.y * 2.4, seed));
     }
 };
 
 // Lays the flat cloth over the canvas: corner, width and height in the canvas.
-void fly(Canvas& canvas, const Canvas& cloth, Point corner, Point size, const Wind& wind, bool pinned) {
+void fly(Canvas& canvas,
+         const Canvas& cloth,
+         Point corner,
+         Point size,
+         const Wind& wind,
+         bool pinned) {
     canvas.rework([&](Point p, const Color& below) {
         const Point q{(p.x - corner.x) / size.x, (p.y - corner.y) / size.y};
         const Point on{q.x * cloth.aspect(), q.y};
@@ -249,10 +276,12 @@ void fly(Canvas& canvas, const Canvas& cloth, Point corner, Point size, const Wi
         const double h = wind.height(on);
         const Point at{on.x + 0.05 * h * hold, on.y + 0.13 * h * hold};
         const double edge = canvas.pixel() / size.y;
-        const double inside = clamp01(0.5 + std::min({q.x, 1 - q.x}) * size.x / canvas.pixel()) *
-                              clamp01(0.5 + std::min(at.y, 1 - at.y) / edge);
+        const double inside =
+            clamp01(0.5 + std::min({q.x, 1 - q.x}) * size.x / canvas.pixel()) *
+            clamp01(0.5 + std::min(at.y, 1 - at.y) / edge);
         if (inside <= 0) return below;
-        const double slope = (wind.height({on.x + 0.01, on.y + 0.004}) - h) / 0.01 * (0.4 + 0.6 * hold);
+        const double slope =
+            (wind.height({on.x + 0.01, on.y + 0.004}) - h) / 0.01 * (0.4 + 0.6 * hold);
         const double light = clamp(0.86 - 0.085 * slope, 0.25, 1.25);
         const double sheen = power(clamp01(0.5 - 0.07 * slope), 6) * 0.25;
         const double weave = 1 + 0.02 * noise(on.x * 230, on.y * 230, wind.seed);
@@ -268,13 +297,16 @@ Label paint_flag(Canvas& canvas, Commission& commission) {
     const double turn_about = random.pick({0.5, 0.33, -0.28, 0.42});
     const double hue = commission.hue;
     const bool deep = random.chance(0.25);
-    Canvas flat(static_cast<int>(canvas.height() * std::max(1.3, canvas.aspect())), canvas.height());
-    Cloth cloth{flat,
-                random,
-                oklch(deep ? 0.3 : random.between(0.48, 0.62), deep ? 0.1 : 0.2, hue),
-                random.chance(0.6) ? Color{0.92, 0.92, 0.9} : oklch(0.88, 0.17, random.pick({kGold, kYellow, hue + 0.2})),
-                oklch(random.between(0.34, 0.6), 0.19, hue + turn_about),
-                oklch(random.between(0.68, 0.84), 0.18, hue + random.pick({0.2, -0.2, 0.5}))};
+    Canvas flat(static_cast<int>(canvas.height() * std::max(1.3, canvas.aspect())),
+                canvas.height());
+    Cloth cloth{
+        flat,
+        random,
+        oklch(deep ? 0.3 : random.between(0.48, 0.62), deep ? 0.1 : 0.2, hue),
+        random.chance(0.6) ? Color{0.92, 0.92, 0.9}
+                           : oklch(0.88, 0.17, random.pick({kGold, kYellow, hue + 0.2})),
+        oklch(random.between(0.34, 0.6), 0.19, hue + turn_about),
+        oklch(random.between(0.68, 0.84), 0.18, hue + random.pick({0.2, -0.2, 0.5}))};
     struct Design {
         void (*draw)(Cloth&);
         const char* title;
@@ -290,7 +322,8 @@ Label paint_flag(Canvas& canvas, Commission& commission) {
                                                          {quarters, "quarters"},
                                                          {diagonal, "diagonal"},
                                                          {bordered, "diamond"}}};
-    const Design& design = kDesigns[static_cast<std::size_t>(commission.turn) % kDesigns.size()];
+    const Design& design =
+        kDesigns[static_cast<std::size_t>(commission.turn) % kDesigns.size()];
     design.draw(cloth);
 
     const Wind wind{random.between(0.7, 1.5),
@@ -304,10 +337,11 @@ Label paint_flag(Canvas& canvas, Commission& commission) {
         fly(canvas, flat, {-0.04, -0.17}, {canvas.aspect() + 0.08, 1.34}, wind, false);
         return {std::string("Flag with ") + design.title, {"flag", design.title}};
     }
-    const Sky sky = make_sky(random,
-                             random.pick({Hour::kNoon, Hour::kMorning, Hour::kSunset, Hour::kGoldenHour}),
-                             canvas.aspect(),
-                             1.1);
+    const Sky sky = make_sky(
+        random,
+        random.pick({Hour::kNoon, Hour::kMorning, Hour::kSunset, Hour::kGoldenHour}),
+        canvas.aspect(),
+        1.1);
     paint_sky(canvas, sky, 1.1, random);
     const double pole = canvas.aspect() * 0.12;
     canvas.line({pole, 0.06}, {pole, 1.1}, 0.014, {0.55, 0.55, 0.58});
@@ -316,7 +350,8 @@ Label paint_flag(Canvas& canvas, Commission& commission) {
     const double width = canvas.aspect() * random.between(0.7, 0.82);
     const double height = std::min(0.66, width / flat.aspect());
     fly(canvas, flat, {pole + 0.012, 0.14}, {width, height}, wind, true);
-    return {std::string("Flag with ") + design.title + " on a pole", {"flag", design.title, "sky"}};
+    return {std::string("Flag with ") + design.title + " on a pole",
+            {"flag", design.title, "sky"}};
 }
 
 }  // namespace haarmony::gallery

@@ -10,14 +10,25 @@
 namespace haarmony::gallery {
 namespace {
 
-enum class Variation { kLinear, kSinusoidal, kSpherical, kSwirl, kHorseshoe, kPolar, kDisc, kHeart, kJulia, kBubble };
+enum class Variation {
+    kLinear,
+    kSinusoidal,
+    kSpherical,
+    kSwirl,
+    kHorseshoe,
+    kPolar,
+    kDisc,
+    kHeart,
+    kJulia,
+    kBubble
+};
 constexpr int kVariations = 10;
 
 struct Step {
     double a, b, c, d, e, f;  // x' = a x + b y + c, y' = d x + e y + f
     Variation variation;
-    double blend;             // 1 = all variation, 0 = affine only
-    double color;             // in [0, 1] along the ramp
+    double blend;  // 1 = all variation, 0 = affine only
+    double color;  // in [0, 1] along the ramp
 };
 
 Point vary(Variation variation, Point p, Random& random) {
@@ -51,7 +62,8 @@ Point vary(Variation variation, Point p, Random& random) {
             // Half the angle at the root of the radius, on one of two branches.
             const double root = std::sqrt(r);
             const double c = std::sqrt(std::max(0.0, (1 + p.x / r) / 2)) * root;
-            const double s = std::sqrt(std::max(0.0, (1 - p.x / r) / 2)) * root * (p.y < 0 ? -1 : 1);
+            const double s =
+                std::sqrt(std::max(0.0, (1 - p.x / r) / 2)) * root * (p.y < 0 ? -1 : 1);
             return random.next() >> 63 ? Point{c, s} : Point{-c, -s};
         }
         case Variation::kBubble:
@@ -81,7 +93,9 @@ System invent(Random& random) {
                                 s,
                                 c * random.between(0.7, 1.2),
                                 random.between(-0.9, 0.9),
-                                random.chance(0.6) ? main : static_cast<Variation>(random.below(kVariations)),
+                                random.chance(0.6)
+                                    ? main
+                                    : static_cast<Variation>(random.below(kVariations)),
                                 random.between(0.55, 1.0),
                                 (i + 0.5) / count});
     }
@@ -101,7 +115,8 @@ void advance(const System& system, Mote& mote, Random& random) {
     const Point v = vary(step.variation, p, random);
     mote.at = p * (1 - step.blend) + v * step.blend;
     mote.color = (mote.color + step.color) / 2;
-    if (std::fabs(mote.at.x) + std::fabs(mote.at.y) > 1e4) mote.at = {random.between(-1, 1), random.between(-1, 1)};
+    if (std::fabs(mote.at.x) + std::fabs(mote.at.y) > 1e4)
+        mote.at = {random.between(-1, 1), random.between(-1, 1)};
 }
 
 // Where the middle nine tenths of the motes are, and how evenly they fill it.
@@ -131,16 +146,21 @@ Extent survey(const System& system, Random random) {
     constexpr std::size_t kLow = kMotes / 25;
     constexpr std::size_t kHigh = kMotes - kLow;
     Extent extent;
-    extent.centre = {(x_order[kLow] + x_order[kHigh]) / 2, (y_order[kLow] + y_order[kHigh]) / 2};
-    extent.reach = std::max({x_order[kHigh] - x_order[kLow], y_order[kHigh] - y_order[kLow], 1e-3}) / 2;
+    extent.centre = {(x_order[kLow] + x_order[kHigh]) / 2,
+                     (y_order[kLow] + y_order[kHigh]) / 2};
+    extent.reach =
+        std::max({x_order[kHigh] - x_order[kLow], y_order[kHigh] - y_order[kLow], 1e-3}) /
+        2;
     std::array<bool, kGrid * kGrid> seen{};
     for (std::size_t i = 0; i < xs.size(); ++i) {
         const double u = (xs[i] - extent.centre.x) / extent.reach / 2 + 0.5;
         const double v = (ys[i] - extent.centre.y) / extent.reach / 2 + 0.5;
         if (u < 0 || v < 0 || u >= 1 || v >= 1) continue;
-        seen[static_cast<std::size_t>(v * kGrid) * kGrid + static_cast<std::size_t>(u * kGrid)] = true;
+        seen[static_cast<std::size_t>(v * kGrid) * kGrid +
+             static_cast<std::size_t>(u * kGrid)] = true;
     }
-    extent.filled = static_cast<double>(std::count(seen.begin(), seen.end(), true)) / (kGrid * kGrid);
+    extent.filled =
+        static_cast<double>(std::count(seen.begin(), seen.end(), true)) / (kGrid * kGrid);
     return extent;
 }
 
@@ -165,7 +185,8 @@ std::vector<Bin> smoothed(const std::vector<Bin>& bins, int width, int height) {
             const Bin& own = bins[static_cast<std::size_t>(y) * width + x];
             const float keep = static_cast<float>(smoothstep(2, 40, own.count));
             wide[static_cast<std::size_t>(y) * width + x] = {
-                own.count * keep + sum.count / 9 * (1 - keep), own.color * keep + sum.color / 9 * (1 - keep)};
+                own.count * keep + sum.count / 9 * (1 - keep),
+                own.color * keep + sum.color / 9 * (1 - keep)};
         }
     }
     return wide;
@@ -178,7 +199,8 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
     System system = invent(random);
     Extent extent = survey(system, random);
     // Most systems collapse to a few points or scatter to dust; take one that does neither.
-    for (int attempt = 0; attempt < 24 && (extent.filled < 0.3 || extent.filled > 0.93); ++attempt) {
+    for (int attempt = 0; attempt < 24 && (extent.filled < 0.3 || extent.filled > 0.93);
+         ++attempt) {
         system = invent(random);
         extent = survey(system, random);
     }
@@ -198,18 +220,22 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
     for (int i = -40; i < motes; ++i) {
         advance(system, mote, random);
         if (i < 0) continue;
-        Point p = system.symmetry == 1 ? mote.at : turned(mote.at, kTurn * (i % system.symmetry) / system.symmetry);
+        Point p = system.symmetry == 1
+                      ? mote.at
+                      : turned(mote.at, kTurn * (i % system.symmetry) / system.symmetry);
         p = p - extent.centre;
         if (system.symmetry > 1) p = turned(p, tilt);
         const double x = p.x * scale + width / 2.0;
         const double y = p.y * scale + height / 2.0;
         if (x < 0 || y < 0 || x >= width || y >= height) continue;
-        Bin& bin = bins[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+        Bin& bin =
+            bins[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
         bin.count += 1;
         bin.color += static_cast<float>(mote.color);
     }
     bins = smoothed(smoothed(bins, width, height), width, height);
-    const Color ground = on_light ? oklch(0.95, 0.04, hues[1]) : oklch(0.13, 0.06, hues[1]);
+    const Color ground =
+        on_light ? oklch(0.95, 0.04, hues[1]) : oklch(0.13, 0.06, hues[1]);
     const Point middle{canvas.aspect() / 2, 0.5};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -220,16 +246,28 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
                 const double bright = logarithm(1 + bin.count) / logarithm(80);
                 const Color tone = ramp.at(bin.color / bin.count);
                 if (on_light) {
-                    c = mix(c, tone * (1.1 - 0.55 * clamp01(bright)), clamp01(bright * 1.2));
+                    c = mix(
+                        c, tone * (1.1 - 0.55 * clamp01(bright)), clamp01(bright * 1.2));
                 } else {
-                    c = c + tone * (1.5 * bright * bright) + Color{1, 1, 1} * (0.25 * power(bright, 4));
+                    c = c + tone * (1.5 * bright * bright) +
+                        Color{1, 1, 1} * (0.25 * power(bright, 4));
                 }
             }
             canvas.set(x, y, c);
         }
     }
-    static constexpr const char* kNames[] = {"linear", "sinusoidal", "spherical", "swirl", "horseshoe", "polar", "disc", "heart", "julia", "bubble"};
-    return {std::string("Flame, ") + kNames[static_cast<int>(system.steps[0].variation)], {"flame", "fractal"}};
+    static constexpr const char* kNames[] = {"linear",
+                                             "sinusoidal",
+                                             "spherical",
+                                             "swirl",
+                                             "horseshoe",
+                                             "polar",
+                                             "disc",
+                                             "heart",
+                                             "julia",
+                                             "bubble"};
+    return {std::string("Flame, ") + kNames[static_cast<int>(system.steps[0].variation)],
+            {"flame", "fractal"}};
 }
 
 }  // namespace haarmony::gallery

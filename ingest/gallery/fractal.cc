@@ -16,9 +16,9 @@ struct Complex {
 // What an escaping orbit tells of its starting point.
 struct Orbit {
     bool escaped = false;
-    double time = 0;      // continuous
-    double trap = 0;      // nearest approach to the trap
-    double light = 0;     // -1 .. 1, of the potential seen as a hill lit from the upper left
+    double time = 0;   // continuous
+    double trap = 0;   // nearest approach to the trap
+    double light = 0;  // -1 .. 1, of the potential seen as a hill lit from the upper left
 };
 
 constexpr int kMostSteps = 320;
@@ -33,7 +33,8 @@ Orbit escape(Complex z, Complex c, bool of_parameter, Formula formula) {
         const double re2 = z.re * z.re;
         const double im2 = z.im * z.im;
         if (re2 + im2 > kFar) {
-            const double logs = logarithm(logarithm(re2 + im2) / 2 / 2.9957322736) / 0.69314718056;
+            const double logs =
+                logarithm(logarithm(re2 + im2) / 2 / 2.9957322736) / 0.69314718056;
             // The normal of the potential is z / z'.
             const double size = slope.re * slope.re + slope.im * slope.im;
             Complex u{(z.re * slope.re + z.im * slope.im) / size,
@@ -46,7 +47,8 @@ Orbit escape(Complex z, Complex c, bool of_parameter, Formula formula) {
         slope = {2 * (z.re * slope.re - z.im * slope.im) + (of_parameter ? 1.0 : 0.0),
                  2 * (z.re * slope.im + z.im * slope.re)};
         const double cross = 2 * z.re * z.im;
-        z = {re2 - im2 + c.re, (formula == Formula::kShip ? -std::fabs(cross) : cross) + c.im};
+        z = {re2 - im2 + c.re,
+             (formula == Formula::kShip ? -std::fabs(cross) : cross) + c.im};
     }
     return {false, kMostSteps, std::sqrt(trap), 0};
 }
@@ -108,8 +110,8 @@ void render(Canvas& canvas, F&& color) {
             const Color a = canvas.at(x, y);
             const Color b = canvas.at(x + 1, y) + a * -1.0;
             const Color c = canvas.at(x, y + 1) + a * -1.0;
-            const double difference = std::fabs(b.r) + std::fabs(b.g) + std::fabs(b.b) + std::fabs(c.r) +
-                                      std::fabs(c.g) + std::fabs(c.b);
+            const double difference = std::fabs(b.r) + std::fabs(b.g) + std::fabs(b.b) +
+                                      std::fabs(c.r) + std::fabs(c.g) + std::fabs(c.b);
             rough[static_cast<std::size_t>(y) * canvas.width() + x] = difference > 0.35;
         }
     }
@@ -118,8 +120,10 @@ void render(Canvas& canvas, F&& color) {
         for (int x = 0; x < canvas.width(); ++x) {
             if (!rough[static_cast<std::size_t>(y) * canvas.width() + x]) continue;
             const Point p = canvas.point(x, y);
-            const Color sum = canvas.at(x, y) + color(p + Point{quarter, -quarter * 0.5}) +
-                              color(p + Point{-quarter, quarter * 0.5}) + color(p + Point{quarter * 0.5, quarter}) +
+            const Color sum = canvas.at(x, y) +
+                              color(p + Point{quarter, -quarter * 0.5}) +
+                              color(p + Point{-quarter, quarter * 0.5}) +
+                              color(p + Point{quarter * 0.5, quarter}) +
                               color(p + Point{-quarter * 0.5, -quarter});
             canvas.set(x, y, sum * 0.2);
         }
@@ -129,7 +133,7 @@ void render(Canvas& canvas, F&& color) {
 // How an orbit is coloured.
 struct Style {
     Ramp ramp;
-    double cycles;   // of the ramp for each doubling of time
+    double cycles;  // of the ramp for each doubling of time
     double shift;
     double relief;   // how much the light shapes it
     double trapped;  // how much the trap colours it
@@ -155,16 +159,19 @@ Style make_style(Random& random, double hue) {
 
 Label mandelbrot(Canvas& canvas, Commission& commission) {
     Random& random = commission.random;
-    const View view = kPlaces[static_cast<std::size_t>(commission.turn / 4) % std::size(kPlaces)];
+    const View view =
+        kPlaces[static_cast<std::size_t>(commission.turn / 4) % std::size(kPlaces)];
     const Style style = make_style(random, commission.hue);
     const double angle = view.height > 1 ? 0 : random.between(-kPi, kPi);
-    const double height = view.height * random.between(0.85, 1.15) / std::min(1.0, canvas.aspect());
+    const double height =
+        view.height * random.between(0.85, 1.15) / std::min(1.0, canvas.aspect());
     const Point middle{canvas.aspect() / 2, 0.5};
     const double c = cosine(angle) * height;
     const double s = sine(angle) * height;
     render(canvas, [&](Point p) {
         const Point d = p - middle;
-        const Complex at{view.centre.re + d.x * c - d.y * s, view.centre.im + d.x * s + d.y * c};
+        const Complex at{view.centre.re + d.x * c - d.y * s,
+                         view.centre.im + d.x * s + d.y * c};
         return style(escape({0, 0}, at, true, Formula::kSquare));
     });
     return {view.name, {"fractal", "mandelbrot"}};
@@ -172,20 +179,27 @@ Label mandelbrot(Canvas& canvas, Commission& commission) {
 
 Label julia(Canvas& canvas, Commission& commission) {
     Random& random = commission.random;
-    Complex seed = kSeeds[static_cast<std::size_t>(commission.turn / 2) % std::size(kSeeds)];
+    Complex seed =
+        kSeeds[static_cast<std::size_t>(commission.turn / 2) % std::size(kSeeds)];
     seed.re += random.between(-0.004, 0.004);
     seed.im += random.between(-0.004, 0.004);
     const Style style = make_style(random, commission.hue);
     const bool whole = random.chance(0.6);
-    const double height = (whole ? random.between(1.9, 2.6) : random.between(0.4, 0.9)) / std::min(1.0, canvas.aspect());
+    const double height = (whole ? random.between(1.9, 2.6) : random.between(0.4, 0.9)) /
+                          std::min(1.0, canvas.aspect());
     const double angle = random.between(-kPi, kPi);
     const Point middle{canvas.aspect() / 2, 0.5};
-    const Point offset = whole ? Point{0, 0} : Point{random.between(-0.5, 0.5), random.between(-0.35, 0.35)};
+    const Point offset =
+        whole ? Point{0, 0}
+              : Point{random.between(-0.5, 0.5), random.between(-0.35, 0.35)};
     const double c = cosine(angle) * height;
     const double s = sine(angle) * height;
     render(canvas, [&](Point p) {
         const Point d = p - middle;
-        return style(escape({offset.x + d.x * c - d.y * s, offset.y + d.x * s + d.y * c}, seed, false, Formula::kSquare));
+        return style(escape({offset.x + d.x * c - d.y * s, offset.y + d.x * s + d.y * c},
+                            seed,
+                            false,
+                            Formula::kSquare));
     });
     return {"Julia set", {"fractal", "julia"}};
 }
@@ -194,12 +208,14 @@ Label burning_ship(Canvas& canvas, Commission& commission) {
     static constexpr View kShips[] = {{"Burning ship", {-1.762, -0.028}, 0.075},
                                       {"Burning armada", {-1.625, -0.005}, 0.09},
                                       {"Ship's mast", {-1.941, -0.002}, 0.016}};
-    const View view = kShips[static_cast<std::size_t>(commission.turn / 8) % std::size(kShips)];
+    const View view =
+        kShips[static_cast<std::size_t>(commission.turn / 8) % std::size(kShips)];
     const Style style = make_style(commission.random, commission.hue);
     const double height = view.height * commission.random.between(0.7, 1.2);
     const Point middle{canvas.aspect() / 2, 0.5};
     render(canvas, [&](Point p) {
-        const Complex at{view.centre.re + (p.x - middle.x) * height, view.centre.im + (p.y - middle.y) * height};
+        const Complex at{view.centre.re + (p.x - middle.x) * height,
+                         view.centre.im + (p.y - middle.y) * height};
         // The derivative is not this formula's: its light would be wrong.
         Orbit orbit = escape({0, 0}, {at.re, -at.im}, true, Formula::kShip);
         orbit.light = 0;
@@ -217,12 +233,14 @@ Label newton(Canvas& canvas, Commission& commission) {
     const std::vector<double> hues = harmony(random, commission.hue);
     for (int i = 0; i < degree; ++i) {
         roots.push_back({cosine(kTurn * i / degree), sine(kTurn * i / degree)});
-        colors.push_back(oklch(random.between(0.5, 0.82), 0.18, hues[static_cast<std::size_t>(i) % 5]));
+        colors.push_back(oklch(
+            random.between(0.5, 0.82), 0.18, hues[static_cast<std::size_t>(i) % 5]));
     }
     const double relax = random.between(0.9, 1.5);
     const double height = random.between(0.9, 2.6);
     const double angle = random.between(0, kTurn);
-    const Point off{random.between(-0.3, 0.3) * height, random.between(-0.3, 0.3) * height};
+    const Point off{random.between(-0.3, 0.3) * height,
+                    random.between(-0.3, 0.3) * height};
     const Point middle{canvas.aspect() / 2, 0.5};
     render(canvas, [&](Point p) {
         const Point d = turned((p - middle) * height, angle) + off;
@@ -231,15 +249,18 @@ Label newton(Canvas& canvas, Commission& commission) {
         for (int step = 0; step < 40; ++step) {
             Complex below{1, 0};
             for (int i = 1; i < degree; ++i)
-                below = {below.re * z.re - below.im * z.im, below.re * z.im + below.im * z.re};
+                below = {below.re * z.re - below.im * z.im,
+                         below.re * z.im + below.im * z.re};
             const double size = below.re * below.re + below.im * below.im;
             if (size < 1e-12) break;
             // z - relax (z^n - 1) / (n z^(n-1))
             const Complex quotient{below.re / size, -below.im / size};
-            z = {z.re - relax * (z.re - quotient.re) / degree, z.im - relax * (z.im - quotient.im) / degree};
+            z = {z.re - relax * (z.re - quotient.re) / degree,
+                 z.im - relax * (z.im - quotient.im) / degree};
             for (int i = 0; i < degree; ++i) {
                 const Complex& root = roots[static_cast<std::size_t>(i)];
-                const double away = (z.re - root.re) * (z.re - root.re) + (z.im - root.im) * (z.im - root.im);
+                const double away = (z.re - root.re) * (z.re - root.re) +
+                                    (z.im - root.im) * (z.im - root.im);
                 nearness += exponential(-away * 40);
                 if (away > 1e-4) continue;
                 const double t = clamp01(step / 22.0 + 0.15 * nearness / (step + 1));
@@ -257,7 +278,8 @@ Label newton(Canvas& canvas, Commission& commission) {
 Label paint_fractal(Canvas& canvas, Commission& commission) {
     static constexpr std::array kScenes = {
         mandelbrot, julia, newton, julia, mandelbrot, julia, burning_ship, julia};
-    return kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](canvas, commission);
+    return kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](
+        canvas, commission);
 }
 
 }  // namespace haarmony::gallery

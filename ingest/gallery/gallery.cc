@@ -90,7 +90,8 @@ Painting paint(std::uint64_t seed, int number, int longest_side) {
 }
 
 int gallery_side(std::uint64_t seed, int number) {
-    Random random(mix_seeds(mix_seeds(seed, kSideStream), static_cast<std::uint64_t>(number)));
+    Random random(
+        mix_seeds(mix_seeds(seed, kSideStream), static_cast<std::uint64_t>(number)));
     return 640 + 8 * random.below(21);
 }
 

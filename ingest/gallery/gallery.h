@@ -21,8 +21,8 @@ inline constexpr int kLeastSide = 16;
 inline constexpr int kLargestSide = 4096;
 
 struct Painting {
-    std::string title;              // e.g. "Mountain lake at dusk"
-    std::string kind;               // e.g. "landscape"; the first of the tags
+    std::string title;  // e.g. "Mountain lake at dusk"
+    std::string kind;   // e.g. "landscape"; the first of the tags
     std::vector<std::string> tags;
     int width = 0;
     int height = 0;

@@ -20,10 +20,15 @@ struct Scene {
     double horizon;
 };
 
-Scene begin(Canvas& canvas, Commission& commission, std::initializer_list<Hour> hours, double low, double high) {
+Scene begin(Canvas& canvas,
+            Commission& commission,
+            std::initializer_list<Hour> hours,
+            double low,
+            double high) {
     Random& random = commission.random;
     const std::vector<Hour> choices(hours);
-    const Hour hour = choices[static_cast<std::size_t>(commission.turn / 8) % choices.size()];
+    const Hour hour =
+        choices[static_cast<std::size_t>(commission.turn / 8) % choices.size()];
     const double horizon = random.between(low, high);
     Scene scene{canvas,
                 random,
@@ -34,32 +39,40 @@ Scene begin(Canvas& canvas, Commission& commission, std::initializer_list<Hour> 
     return scene;
 }
 
-void ranges(Scene& s, int count, double base, double height, double sharpness, double snow) {
+void ranges(Scene& s,
+            int count,
+            double base,
+            double height,
+            double sharpness,
+            double snow) {
     const double hue = s.random.pick({0.08, 0.15, 0.7, 0.8, 0.4});
     for (int i = 0; i < count; ++i) {
         const double near = count == 1 ? 0.6 : static_cast<double>(i) / (count - 1);
-        paint_range(s.canvas,
-                    s.sky,
-                    {.base = mix(base, base + 0.05, near),
-                     .height = height * mix(1.0, 0.55, near) * s.random.between(0.85, 1.2),
-                     .frequency = mix(1.0, 1.9, near) * s.random.between(0.8, 1.2),
-                     .sharpness = sharpness,
-                     .distance = mix(0.62, 0.12, near),
-                     .snow = snow * mix(1.0, 0.7, near),
-                     .rock = oklch(mix(0.55, 0.46, near), 0.05, hue),
-                     .grass = oklch(0.50, 0.09, kGreen + s.random.between(-0.06, 0.03)),
-                     .seed = s.random.noise_seed()});
+        paint_range(
+            s.canvas,
+            s.sky,
+            {.base = mix(base, base + 0.05, near),
+             .height = height * mix(1.0, 0.55, near) * s.random.between(0.85, 1.2),
+             .frequency = mix(1.0, 1.9, near) * s.random.between(0.8, 1.2),
+             .sharpness = sharpness,
+             .distance = mix(0.62, 0.12, near),
+             .snow = snow * mix(1.0, 0.7, near),
+             .rock = oklch(mix(0.55, 0.46, near), 0.05, hue),
+             .grass = oklch(0.50, 0.09, kGreen + s.random.between(-0.06, 0.03)),
+             .seed = s.random.noise_seed()});
     }
 }
 
 void conifers_along(Scene& s, double y, double size, int count, double snow) {
     const Color light = s.sky.sunlight + s.sky.ambient;
-    const Color lit = mix(oklch(0.48, 0.09, kGreen), Color{0.8, 0.85, 0.95}, snow) * light;
+    const Color lit =
+        mix(oklch(0.48, 0.09, kGreen), Color{0.8, 0.85, 0.95}, snow) * light;
     const Color shaded = oklch(0.24, 0.06, kTeal) * light;
     for (int i = 0; i < count; ++i) {
         const Point at{s.random.between(-0.05, s.canvas.aspect() + 0.05),
                        y + size * s.random.between(-0.05, 0.12)};
-        paint_conifer(s.canvas, at, size * s.random.between(0.6, 1.15), lit, shaded, s.random);
+        paint_conifer(
+            s.canvas, at, size * s.random.between(0.6, 1.15), lit, shaded, s.random);
     }
 }
 
@@ -71,8 +84,9 @@ Label mountain_lake(Canvas& canvas, Commission& commission) {
                     0.66);
     ranges(s, 3, s.horizon, s.random.between(0.3, 0.44), 1, s.random.between(0.3, 0.75));
     conifers_along(s, s.horizon + 0.012, 0.07, 90, 0);
-    const Color water = oklch(0.42, 0.09, s.random.pick({kTeal, kCyan, kSkyBlue, kBlue})) *
-                        (s.sky.sunlight * 0.8 + s.sky.ambient);
+    const Color water =
+        oklch(0.42, 0.09, s.random.pick({kTeal, kCyan, kSkyBlue, kBlue})) *
+        (s.sky.sunlight * 0.8 + s.sky.ambient);
     paint_water(canvas, s.horizon + 0.02, water, s.random.between(0.35, 1.2), s.sky.seed);
     if (s.random.chance(0.5)) {
         const double side = s.random.chance(0.5) ? 0.08 : 0.92;
@@ -84,18 +98,23 @@ Label mountain_lake(Canvas& canvas, Commission& commission) {
                           oklch(0.18, 0.05, kTeal),
                           s.random);
     } else {
-        paint_sail_boat(canvas,
-                        {canvas.aspect() * s.random.between(0.25, 0.75), s.horizon + 0.13},
-                        0.13,
-                        oklch(0.8, 0.17, s.hue),
-                        oklch(0.4, 0.1, s.hue + 0.5),
-                        s.sky);
+        paint_sail_boat(
+            canvas,
+            {canvas.aspect() * s.random.between(0.25, 0.75), s.horizon + 0.13},
+            0.13,
+            oklch(0.8, 0.17, s.hue),
+            oklch(0.4, 0.1, s.hue + 0.5),
+            s.sky);
     }
     return {"Mountain lake " + s.sky.when(), {"mountains", "lake", s.sky.tag()}};
 }
 
 Label meadow(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kNoon, Hour::kGoldenHour, Hour::kMorning, Hour::kStorm}, 0.46, 0.6);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kNoon, Hour::kGoldenHour, Hour::kMorning, Hour::kStorm},
+                    0.46,
+                    0.6);
     ranges(s, 2, s.horizon, 0.16, 0.4, 0);
     const double green = s.random.between(kLime - 0.02, kGreen + 0.02);
     for (int i = 0; i < 3; ++i) {
@@ -111,7 +130,8 @@ Label meadow(Canvas& canvas, Commission& commission) {
         if (i < 2)
             for (int k = 0; k < 4; ++k)
                 paint_round_tree(canvas,
-                                 {s.random.between(0, canvas.aspect()), mix(s.horizon + 0.06, 0.82, t) + 0.01},
+                                 {s.random.between(0, canvas.aspect()),
+                                  mix(s.horizon + 0.06, 0.82, t) + 0.01},
                                  mix(0.07, 0.2, t) * s.random.between(0.7, 1.2),
                                  oklch(0.5, 0.12, green + s.random.between(-0.02, 0.03)),
                                  s.sky,
@@ -140,9 +160,14 @@ Label meadow(Canvas& canvas, Commission& commission) {
 }
 
 Label desert(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kGoldenHour, Hour::kNoon, Hour::kSunset, Hour::kNight}, 0.36, 0.56);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kGoldenHour, Hour::kNoon, Hour::kSunset, Hour::kNight},
+                    0.36,
+                    0.56);
     ranges(s, 1, s.horizon + 0.02, 0.12, 0.7, 0);
-    const Color sand = oklch(s.random.between(0.66, 0.84), 0.13, s.random.between(0.11, 0.22));
+    const Color sand =
+        oklch(s.random.between(0.66, 0.84), 0.13, s.random.between(0.11, 0.22));
     paint_dunes(canvas, s.sky, s.horizon, 6, sand, s.random.noise_seed());
     if (s.random.chance(0.6)) {
         const int palms = 2 + s.random.below(4);
@@ -159,7 +184,11 @@ Label desert(Canvas& canvas, Commission& commission) {
 }
 
 Label flower_rows(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kGoldenHour}, 0.34, 0.52);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kGoldenHour},
+                    0.34,
+                    0.52);
     ranges(s, 1, s.horizon + 0.01, 0.1, 0.3, 0);
     const bool lavender = s.random.chance(0.3);
     std::vector<Color> colors;
@@ -180,16 +209,22 @@ Label flower_rows(Canvas& canvas, Commission& commission) {
     const int balloons = s.random.below(4);
     for (int i = 0; i < balloons; ++i)
         paint_balloon(canvas,
-                      {canvas.aspect() * s.random.between(0.1, 0.9), s.horizon * s.random.between(0.45, 0.9)},
+                      {canvas.aspect() * s.random.between(0.1, 0.9),
+                       s.horizon * s.random.between(0.45, 0.9)},
                       s.random.between(0.08, 0.24),
                       s.hue + i * 0.31,
                       s.sky,
                       s.random);
-    return {std::string(lavender ? "Lavender " : "Tulip fields ") + s.sky.when(), {"field", "flowers", s.sky.tag()}};
+    return {std::string(lavender ? "Lavender " : "Tulip fields ") + s.sky.when(),
+            {"field", "flowers", s.sky.tag()}};
 }
 
 Label winter(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kNight, Hour::kMorning, Hour::kNoon, Hour::kSunset}, 0.5, 0.64);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kNight, Hour::kMorning, Hour::kNoon, Hour::kSunset},
+                    0.5,
+                    0.64);
     ranges(s, 3, s.horizon, s.random.between(0.24, 0.4), 1, 1);
     const Color snow{0.86, 0.9, 1.0};
     conifers_along(s, s.horizon + 0.05, 0.1, 70, 0.25);
@@ -205,20 +240,28 @@ Label winter(Canvas& canvas, Commission& commission) {
                     .seed = s.random.noise_seed()});
         if (i == 0) {
             for (int k = 0; k < 3; ++k)
-                paint_house(canvas,
-                            {canvas.aspect() * (0.3 + 0.2 * k) + s.random.bell() * 0.03, s.horizon + 0.12},
-                            0.07,
-                            oklch(0.5, 0.13, s.random.pick({kRed, kOrange, kGold, kBlue})),
-                            snow,
-                            s.sky);
+                paint_house(
+                    canvas,
+                    {canvas.aspect() * (0.3 + 0.2 * k) + s.random.bell() * 0.03,
+                     s.horizon + 0.12},
+                    0.07,
+                    oklch(0.5, 0.13, s.random.pick({kRed, kOrange, kGold, kBlue})),
+                    snow,
+                    s.sky);
         }
-        conifers_along(s, mix(s.horizon + 0.13, 0.97, i), mix(0.13, 0.34, i), 9 - 3 * i, 0.6);
+        conifers_along(
+            s, mix(s.horizon + 0.13, 0.97, i), mix(0.13, 0.34, i), 9 - 3 * i, 0.6);
     }
-    return {"Winter valley " + s.sky.when(), {"winter", "snow", "mountains", s.sky.tag()}};
+    return {"Winter valley " + s.sky.when(),
+            {"winter", "snow", "mountains", s.sky.tag()}};
 }
 
 Label autumn(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kGoldenHour, Hour::kNoon, Hour::kStorm, Hour::kMorning}, 0.42, 0.56);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kGoldenHour, Hour::kNoon, Hour::kStorm, Hour::kMorning},
+                    0.42,
+                    0.56);
     ranges(s, 2, s.horizon, 0.2, 0.5, 0);
     static constexpr double kLeaves[] = {kRed, 0.1, kOrange, kGold, kGold, kYellow};
     for (int row = 0; row < 4; ++row) {
@@ -226,15 +269,18 @@ Label autumn(Canvas& canvas, Commission& commission) {
         const double y = mix(s.horizon + 0.03, 0.86, t);
         if (row == 3) break;
         for (int i = 0; i < 16 - 4 * row; ++i)
-            paint_round_tree(canvas,
-                             {s.random.between(-0.05, canvas.aspect() + 0.05), y + 0.02 * s.random.unit()},
-                             mix(0.1, 0.34, t) * s.random.between(0.75, 1.2),
-                             oklch(s.random.between(0.52, 0.74), 0.17, s.random.pick(kLeaves)),
-                             s.sky,
-                             s.random);
+            paint_round_tree(
+                canvas,
+                {s.random.between(-0.05, canvas.aspect() + 0.05),
+                 y + 0.02 * s.random.unit()},
+                mix(0.1, 0.34, t) * s.random.between(0.75, 1.2),
+                oklch(s.random.between(0.52, 0.74), 0.17, s.random.pick(kLeaves)),
+                s.sky,
+                s.random);
     }
     if (s.random.chance(0.6)) {
-        paint_water(canvas, 0.68, oklch(0.33, 0.06, kCyan) * s.sky.sunlight, 0.8, s.sky.seed);
+        paint_water(
+            canvas, 0.68, oklch(0.33, 0.06, kCyan) * s.sky.sunlight, 0.8, s.sky.seed);
     } else {
         paint_hill(canvas,
                    s.sky,
@@ -254,7 +300,11 @@ Label autumn(Canvas& canvas, Commission& commission) {
 }
 
 Label misty_ridges(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kSunset, Hour::kMorning, Hour::kDusk, Hour::kGoldenHour}, 0.5, 0.66);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kSunset, Hour::kMorning, Hour::kDusk, Hour::kGoldenHour},
+                    0.5,
+                    0.66);
     constexpr int kLayers = 7;
     const Color near = oklch(0.2, 0.08, s.hue);
     for (int i = 0; i < kLayers; ++i) {
@@ -267,22 +317,34 @@ Label misty_ridges(Canvas& canvas, Commission& commission) {
                           .seed = s.random.noise_seed()};
         Canvas& c = canvas;
         for (int x = 0; x < c.width(); ++x) {
-            const double crest = range.crest(c.point(x, 0).x) -
-                                 (i > 3 ? 0.016 * t * clamp01(noise(c.point(x, 0).x * 70, t, range.seed)) : 0);
-            for (int y = std::max(0, floor_int(crest * c.height())); y < c.height(); ++y) {
+            const double crest =
+                range.crest(c.point(x, 0).x) -
+                (i > 3 ? 0.016 * t * clamp01(noise(c.point(x, 0).x * 70, t, range.seed))
+                       : 0);
+            for (int y = std::max(0, floor_int(crest * c.height())); y < c.height();
+                 ++y) {
                 const double depth = c.point(x, y).y - crest;
                 const double cover = clamp01(depth * c.height() + 0.5);
-                const Color mist = mix(tone, s.sky.haze, 0.7 * smoothstep(0.0, 0.24, depth) * (1 - t * 0.6));
+                const Color mist = mix(
+                    tone, s.sky.haze, 0.7 * smoothstep(0.0, 0.24, depth) * (1 - t * 0.6));
                 c.set(x, y, mix(c.at(x, y), mist, cover));
             }
         }
     }
-    paint_birds(canvas, {canvas.aspect() * s.random.between(0.3, 0.7), s.horizon * 0.5}, 6, near, s.random);
+    paint_birds(canvas,
+                {canvas.aspect() * s.random.between(0.3, 0.7), s.horizon * 0.5},
+                6,
+                near,
+                s.random);
     return {"Misty ridges " + s.sky.when(), {"mountains", "mist", s.sky.tag()}};
 }
 
 Label balloons(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas, commission, {Hour::kMorning, Hour::kNoon, Hour::kSunset, Hour::kGoldenHour}, 0.7, 0.82);
+    Scene s = begin(canvas,
+                    commission,
+                    {Hour::kMorning, Hour::kNoon, Hour::kSunset, Hour::kGoldenHour},
+                    0.7,
+                    0.82);
     ranges(s, 3, s.horizon, 0.2, s.random.between(0.2, 1), 0.1);
     paint_hill(canvas,
                s.sky,
@@ -294,13 +356,14 @@ Label balloons(Canvas& canvas, Commission& commission) {
     const int count = 5 + s.random.below(6);
     for (int i = 0; i < count; ++i) {
         const double t = static_cast<double>(i) / (count - 1);
-        paint_balloon(canvas,
-                      {canvas.aspect() * fraction(0.17 + i * 0.618 + s.random.between(-0.05, 0.05)),
-                       s.random.between(0.35, 0.8)},
-                      mix(0.08, 0.44, t * t),
-                      s.hue + i * 0.137,
-                      s.sky,
-                      s.random);
+        paint_balloon(
+            canvas,
+            {canvas.aspect() * fraction(0.17 + i * 0.618 + s.random.between(-0.05, 0.05)),
+             s.random.between(0.35, 0.8)},
+            mix(0.08, 0.44, t * t),
+            s.hue + i * 0.137,
+            s.sky,
+            s.random);
     }
     return {"Balloons " + s.sky.when(), {"balloons", "sky", s.sky.tag()}};
 }
@@ -308,9 +371,16 @@ Label balloons(Canvas& canvas, Commission& commission) {
 }  // namespace
 
 Label paint_landscape(Canvas& canvas, Commission& commission) {
-    static constexpr std::array kScenes = {
-        mountain_lake, flower_rows, winter, desert, autumn, misty_ridges, meadow, balloons};
-    Label label = kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](canvas, commission);
+    static constexpr std::array kScenes = {mountain_lake,
+                                           flower_rows,
+                                           winter,
+                                           desert,
+                                           autumn,
+                                           misty_ridges,
+                                           meadow,
+                                           balloons};
+    Label label = kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](
+        canvas, commission);
     label.tags.insert(label.tags.begin(), "landscape");
     return label;
 }

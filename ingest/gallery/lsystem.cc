@@ -16,9 +16,10 @@ std::string rewrite(const Grammar& grammar,
     for (int i = 0; i < generations; ++i) {
         std::string next;
         for (const char symbol : symbols) {
-            const auto rule = std::find_if(grammar.rules.begin(),
-                                           grammar.rules.end(),
-                                           [&](const Rule& r) { return r.symbol == symbol; });
+            const auto rule = std::find_if(
+                grammar.rules.begin(), grammar.rules.end(), [&](const Rule& r) {
+                    return r.symbol == symbol;
+                });
             if (rule == grammar.rules.end())
                 next += symbol;
             else
@@ -45,10 +46,11 @@ Plant grow(std::string_view symbols, const Turtle& turtle, Random& random) {
                 now.heading -= turtle.lift * sine(now.heading);
                 const double step = power(turtle.shrink, now.depth);
                 const Point to = now.at + turned({0, -step}, now.heading);
-                plant.twigs.push_back({now.at,
-                                       to,
-                                       now.depth,
-                                       static_cast<double>(i) / static_cast<double>(symbols.size())});
+                plant.twigs.push_back(
+                    {now.at,
+                     to,
+                     now.depth,
+                     static_cast<double>(i) / static_cast<double>(symbols.size())});
                 now.at = to;
                 break;
             }

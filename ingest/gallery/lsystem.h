@@ -36,8 +36,8 @@ struct Grammar {
 struct Twig {
     Point from;
     Point to;
-    int depth = 0;     // brackets that are open
-    double age = 0;    // 0 at the foot .. 1 at the last symbol
+    int depth = 0;   // brackets that are open
+    double age = 0;  // 0 at the foot .. 1 at the last symbol
 };
 
 struct Bud {
@@ -52,10 +52,10 @@ struct Plant {
 };
 
 struct Turtle {
-    double angle = 0.4;         // of + and -
-    double wander = 0;          // deviation added to every turn
-    double shrink = 1;          // length of a step for each open bracket
-    double lift = 0;            // how much headings bend back upwards in a step
+    double angle = 0.4;  // of + and -
+    double wander = 0;   // deviation added to every turn
+    double shrink = 1;   // length of a step for each open bracket
+    double lift = 0;     // how much headings bend back upwards in a step
 };
 
 // The plant stands at (0, 0) and reaches as far as its string says in steps of length 1;

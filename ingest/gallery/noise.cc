@@ -65,7 +65,8 @@ double fbm(double x, double y, int octaves, std::uint32_t seed) {
     double sum = 0;
     double amplitude = 0.6;
     for (int i = 0; i < octaves; ++i) {
-        sum += amplitude * noise(x, y, seed + static_cast<std::uint32_t>(i) * 0x68E31DA4U);
+        sum +=
+            amplitude * noise(x, y, seed + static_cast<std::uint32_t>(i) * 0x68E31DA4U);
         // Turned by an angle of no symmetry, so that the lattices never line up.
         const double turned = 2 * (0.8 * x - 0.6 * y);
         y = 2 * (0.6 * x + 0.8 * y);

@@ -20,9 +20,9 @@ namespace haarmony::gallery {
 [[nodiscard]] double ridged(double x, double y, int octaves, std::uint32_t seed);
 
 struct Cell {
-    double nearest = 0;       // distance to the nearest feature point
-    double second = 0;        // distance to the one after it
-    std::uint32_t id = 0;     // a random value of the nearest point's own
+    double nearest = 0;    // distance to the nearest feature point
+    double second = 0;     // distance to the one after it
+    std::uint32_t id = 0;  // a random value of the nearest point's own
 };
 [[nodiscard]] Cell cell(double x, double y, std::uint32_t seed);
 

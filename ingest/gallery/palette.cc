@@ -16,9 +16,7 @@ struct Lab {
     double b = 0;
 };
 
-double cube_root(double x) {
-    return x < 0 ? -power(-x, 1.0 / 3) : power(x, 1.0 / 3);
-}
+double cube_root(double x) { return x < 0 ? -power(-x, 1.0 / 3) : power(x, 1.0 / 3); }
 
 Lab to_lab(const Color& c) {
     const double l =
@@ -116,11 +114,11 @@ Color Ramp::at(double t) const {
 
 std::vector<double> harmony(Random& random, double base_hue) {
     static constexpr double kOffsets[][5] = {
-        {0, 0.06, -0.06, 0.11, 0.5},      // neighbours and an accent
-        {0, 0.5, 0.04, 0.46, 0.54},       // opposites
-        {0, 0.333, 0.667, 0.03, 0.36},    // triad
-        {0, 0.42, 0.58, 0.05, -0.05},     // split opposite
-        {0, 0.25, 0.5, 0.75, 0.05},       // square
+        {0, 0.06, -0.06, 0.11, 0.5},    // neighbours and an accent
+        {0, 0.5, 0.04, 0.46, 0.54},     // opposites
+        {0, 0.333, 0.667, 0.03, 0.36},  // triad
+        {0, 0.42, 0.58, 0.05, -0.05},   // split opposite
+        {0, 0.25, 0.5, 0.75, 0.05},     // square
     };
     const auto& offsets = random.pick(kOffsets);
     std::vector<double> hues;

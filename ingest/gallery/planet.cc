@@ -25,14 +25,18 @@ void nebula(Space& s, double brightness) {
                     oklch(0.95, 0.07, hues[3])};
     const double angle = s.random.between(0, kPi);
     const double narrow = s.random.between(1.2, 3.5);
-    const Point centre{s.canvas.aspect() * s.random.between(0.25, 0.75), s.random.between(0.3, 0.7)};
+    const Point centre{s.canvas.aspect() * s.random.between(0.25, 0.75),
+                       s.random.between(0.3, 0.7)};
     s.canvas.cover([&](Point p) {
         const Point d = turned(p - centre, angle);
         const double warp = fbm(p.x * 2.1, p.y * 2.1, 3, seed);
-        const double gas = fbm(p.x * 2.6 + 1.3 * warp, p.y * 2.6 - 1.1 * warp, 5, seed + 5);
+        const double gas =
+            fbm(p.x * 2.6 + 1.3 * warp, p.y * 2.6 - 1.1 * warp, 5, seed + 5);
         const double band = exponential(-narrow * d.y * d.y * 4 - d.x * d.x * 0.8);
-        const double dust = smoothstep(0.05, 0.5, fbm(p.x * 3.7 - warp, p.y * 3.7, 3, seed + 11));
-        const double t = clamp01((0.32 + 0.75 * gas) * (0.35 + 0.9 * band) - 0.28 * dust * band);
+        const double dust =
+            smoothstep(0.05, 0.5, fbm(p.x * 3.7 - warp, p.y * 3.7, 3, seed + 11));
+        const double t =
+            clamp01((0.32 + 0.75 * gas) * (0.35 + 0.9 * band) - 0.28 * dust * band);
         return ramp.at(t * brightness) * (0.5 + brightness * 0.7);
     });
 }
@@ -55,7 +59,7 @@ struct Globe {
     Point centre;
     double radius;
     double tilt;
-    double phase;    // how far the sun stands to the side: 0 behind us .. 1 beside
+    double phase;  // how far the sun stands to the side: 0 behind us .. 1 beside
     Color air;
 };
 
@@ -71,20 +75,25 @@ void paint_globe(Space& s, const Globe& g, F&& surface) {
             const Point q = (s.canvas.point(x, y) - g.centre) * (1 / g.radius);
             const double out = (reach - length(q)) / (reach - 0.9);
             const double day = clamp01(0.35 + q.x * lx + q.y * ly);
-            s.canvas.set(x, y, s.canvas.at(x, y) + g.air * (covered * 0.4 * clamp01(out) * out * day));
+            s.canvas.set(
+                x,
+                y,
+                s.canvas.at(x, y) + g.air * (covered * 0.4 * clamp01(out) * out * day));
         });
     }
     s.canvas.shade(cover_disc(s.canvas.frame(), g.centre, g.radius), 1, [&](Point p) {
         const Point q = (p - g.centre) * (1 / g.radius);
         const double z = std::sqrt(std::max(0.0, 1 - q.x * q.x - q.y * q.y));
         const Point level = turned(q, g.tilt);
-        const double latitude = arc_tangent(level.y, std::sqrt(std::max(1e-9, 1 - level.y * level.y)));
+        const double latitude =
+            arc_tangent(level.y, std::sqrt(std::max(1e-9, 1 - level.y * level.y)));
         const double longitude = arc_tangent(level.x, z);
         const double light = q.x * lx + q.y * ly + z * lz;
         const double day = smoothstep(-0.12, 0.35, light) * clamp01(light + 0.25);
         const Color c = surface(longitude, latitude, Point{level.x, level.y}, z);
         const double rim = power(1 - z, 3);
-        return c * (0.012 + 1.15 * day) + g.air * (rim * 1.1 * smoothstep(-0.2, 0.5, light));
+        return c * (0.012 + 1.15 * day) +
+               g.air * (rim * 1.1 * smoothstep(-0.2, 0.5, light));
     });
 }
 
@@ -100,10 +109,14 @@ void gas_giant(Space& s, const Globe& g, double hue) {
     const Point spot{s.random.between(-0.4, 0.4), s.random.between(0.15, 0.45)};
     paint_globe(s, g, [&](double lon, double lat, Point q, double) {
         const double turbulence = fbm(lon * 2.2, lat * 7, 4, seed);
-        const double d = ((q.x - spot.x) * (q.x - spot.x) + 5 * (q.y - spot.y) * (q.y - spot.y)) * 22;
+        const double d =
+            ((q.x - spot.x) * (q.x - spot.x) + 5 * (q.y - spot.y) * (q.y - spot.y)) * 22;
         const double eye = exponential(-d);
-        const double t = 0.5 + 0.5 * sine(lat * count * 2 + 0.9 * turbulence + noise(lat * 5, 0.5, seed + 3) * 3);
-        return mix(bands.at(t + 0.12 * noise(lon * 5, lat * 30, seed + 1)), oklch(0.6, 0.2, hue - 0.1), eye * 0.9);
+        const double t = 0.5 + 0.5 * sine(lat * count * 2 + 0.9 * turbulence +
+                                          noise(lat * 5, 0.5, seed + 3) * 3);
+        return mix(bands.at(t + 0.12 * noise(lon * 5, lat * 30, seed + 1)),
+                   oklch(0.6, 0.2, hue - 0.1),
+                   eye * 0.9);
     });
 }
 
@@ -117,7 +130,8 @@ void living_world(Space& s, const Globe& g, double hue) {
                     oklch(0.75, 0.05, 0.16)};
     paint_globe(s, g, [&](double lon, double lat, Point q, double z) {
         const double h = fbm(q.x * 1.7 + 5, q.y * 1.7 + z * 1.9, 6, seed);
-        Color c = h < 0.02 ? mix(sea, shelf, smoothstep(-0.18, 0.02, h)) : land.at((h - 0.02) * 2.6);
+        Color c = h < 0.02 ? mix(sea, shelf, smoothstep(-0.18, 0.02, h))
+                           : land.at((h - 0.02) * 2.6);
         const double ice = smoothstep(1.02, 1.16, std::fabs(lat) + 0.12 * h);
         c = mix(c, {0.9, 0.95, 1}, ice);
         const double cloud = fbm(lon * 2 + 0.8 * h, lat * 3.4, 5, seed + 9);
@@ -127,11 +141,14 @@ void living_world(Space& s, const Globe& g, double hue) {
 
 void rocky_moon(Space& s, const Globe& g, double hue, double chroma) {
     const std::uint32_t seed = s.random.noise_seed();
-    const Ramp stone{oklch(0.35, chroma, hue), oklch(0.62, chroma, hue + 0.03), oklch(0.82, chroma * 0.6, hue + 0.06)};
+    const Ramp stone{oklch(0.35, chroma, hue),
+                     oklch(0.62, chroma, hue + 0.03),
+                     oklch(0.82, chroma * 0.6, hue + 0.06)};
     paint_globe(s, g, [&](double, double, Point q, double z) {
         double h = 0.5 + 0.6 * fbm(q.x * 2.6, q.y * 2.6 + z, 5, seed);
         for (const double scale : {3.0, 7.0}) {
-            const Cell crater = cell(q.x * scale + 9, (q.y + z * 0.5) * scale + 9, seed + 5);
+            const Cell crater =
+                cell(q.x * scale + 9, (q.y + z * 0.5) * scale + 9, seed + 5);
             const double r = 0.16 + 0.2 * ((crater.id >> 8) & 255) / 255.0;
             h += 0.22 * (smoothstep(r * 0.8, r, crater.nearest) - 1) +
                  0.25 * exponential(-power((crater.nearest - r) * 14, 2));
@@ -141,20 +158,31 @@ void rocky_moon(Space& s, const Globe& g, double hue, double chroma) {
 }
 
 // Half of the rings is painted before the globe and half after it.
-void rings(Space& s, const Globe& g, double hue, bool front, std::uint32_t seed, double flatness, double angle) {
+void rings(Space& s,
+           const Globe& g,
+           double hue,
+           bool front,
+           std::uint32_t seed,
+           double flatness,
+           double angle) {
     const double outer = g.radius * 2.25;
-    const Mask area = cover_ellipse(s.canvas.frame(), g.centre, outer, outer * flatness, angle);
+    const Mask area =
+        cover_ellipse(s.canvas.frame(), g.centre, outer, outer * flatness, angle);
     const Color light = oklch(0.88, 0.07, hue);
     const Color dark = oklch(0.55, 0.10, hue + 0.06);
     s.canvas.each(area, [&](int x, int y, double covered) {
         const Point p = s.canvas.point(x, y) - g.centre;
         const Point level = turned(p, -angle);
         if ((level.y > 0) != front) return;
-        const double r = std::sqrt(level.x * level.x + level.y * level.y / (flatness * flatness)) / g.radius;
+        const double r =
+            std::sqrt(level.x * level.x + level.y * level.y / (flatness * flatness)) /
+            g.radius;
         if (r < 1.28) return;
-        const double groove = 0.5 + 0.5 * noise(r * 14, 0.5, seed) + 0.35 * noise(r * 47, 0.5, seed + 1);
+        const double groove =
+            0.5 + 0.5 * noise(r * 14, 0.5, seed) + 0.35 * noise(r * 47, 0.5, seed + 1);
         const double gap = smoothstep(0.02, 0.045, std::fabs(r - 1.86));
-        const double opacity = clamp01(groove) * gap * smoothstep(1.28, 1.36, r) * smoothstep(2.25, 2.15, r);
+        const double opacity =
+            clamp01(groove) * gap * smoothstep(1.28, 1.36, r) * smoothstep(2.25, 2.15, r);
         // The globe's shadow falls on the far half.
         const double along = (p.x * s.light.x + p.y * s.light.y) / g.radius;
         const double across = std::fabs(p.x * s.light.y - p.y * s.light.x) / g.radius;
@@ -165,14 +193,16 @@ void rings(Space& s, const Globe& g, double hue, bool front, std::uint32_t seed,
 }
 
 Globe globe_at(Space& s, Point centre, double radius, double phase, double air_hue) {
-    return {centre, radius, s.random.between(-0.6, 0.6), phase, oklch(0.72, 0.15, air_hue)};
+    return {
+        centre, radius, s.random.between(-0.6, 0.6), phase, oklch(0.72, 0.15, air_hue)};
 }
 
 void moons(Space& s, int count) {
     for (int i = 0; i < count; ++i)
         rocky_moon(s,
                    globe_at(s,
-                            {s.canvas.aspect() * s.random.between(0.08, 0.92), s.random.between(0.1, 0.9)},
+                            {s.canvas.aspect() * s.random.between(0.08, 0.92),
+                             s.random.between(0.1, 0.9)},
                             s.random.between(0.025, 0.08),
                             s.random.between(0.6, 0.9),
                             s.hue),
@@ -183,11 +213,12 @@ void moons(Space& s, int count) {
 Label ringed(Space& s) {
     nebula(s, s.random.between(0.25, 0.6));
     stars(s, 260);
-    const Globe g = globe_at(s,
-                             {s.canvas.aspect() * s.random.between(0.4, 0.6), s.random.between(0.42, 0.58)},
-                             0.19 * std::min(1.25, s.canvas.aspect() + 0.1),
-                             s.random.between(0.4, 0.75),
-                             s.hue + 0.1);
+    const Globe g = globe_at(
+        s,
+        {s.canvas.aspect() * s.random.between(0.4, 0.6), s.random.between(0.42, 0.58)},
+        0.19 * std::min(1.25, s.canvas.aspect() + 0.1),
+        s.random.between(0.4, 0.75),
+        s.hue + 0.1);
     const std::uint32_t seed = s.random.noise_seed();
     const double flatness = s.random.between(0.14, 0.4);
     const double angle = s.random.between(-0.6, 0.6);
@@ -201,11 +232,12 @@ Label blue_world(Space& s) {
     nebula(s, s.random.between(0.1, 0.4));
     stars(s, 300);
     const double air = s.random.pick({kSkyBlue, kCyan, kViolet, kOrange});
-    const Globe g = globe_at(s,
-                             {s.canvas.aspect() * s.random.between(0.3, 0.7), s.random.between(0.45, 0.7)},
-                             s.random.between(0.3, 0.44) * std::min(1.1, s.canvas.aspect()),
-                             s.random.between(0.5, 0.85),
-                             air);
+    const Globe g = globe_at(
+        s,
+        {s.canvas.aspect() * s.random.between(0.3, 0.7), s.random.between(0.45, 0.7)},
+        s.random.between(0.3, 0.44) * std::min(1.1, s.canvas.aspect()),
+        s.random.between(0.5, 0.85),
+        air);
     living_world(s, g, air == kOrange ? kTeal : air + 0.04);
     moons(s, 1);
     return {"Living world", {"planet", "ocean", "space"}};
@@ -228,11 +260,12 @@ Label close_giant(Space& s) {
 Label horizon_world(Space& s) {
     nebula(s, s.random.between(0.6, 0.95));
     stars(s, 240);
-    const Globe far = globe_at(s,
-                               {s.canvas.aspect() * s.random.between(0.25, 0.75), s.random.between(0.25, 0.42)},
-                               s.random.between(0.12, 0.24),
-                               0.7,
-                               s.hue + 0.4);
+    const Globe far = globe_at(
+        s,
+        {s.canvas.aspect() * s.random.between(0.25, 0.75), s.random.between(0.25, 0.42)},
+        s.random.between(0.12, 0.24),
+        0.7,
+        s.hue + 0.4);
     if (s.random.chance(0.5))
         gas_giant(s, far, s.hue + 0.5);
     else
@@ -246,7 +279,8 @@ Label horizon_world(Space& s) {
 Label spiral_galaxy(Space& s) {
     Canvas& canvas = s.canvas;
     const std::uint32_t seed = s.random.noise_seed();
-    const Point centre{canvas.aspect() * s.random.between(0.42, 0.58), s.random.between(0.42, 0.58)};
+    const Point centre{canvas.aspect() * s.random.between(0.42, 0.58),
+                       s.random.between(0.42, 0.58)};
     const double angle = s.random.between(0, kTurn);
     const double flatness = s.random.between(0.35, 0.9);
     const int arms = 2 + s.random.below(3);
@@ -261,12 +295,17 @@ Label spiral_galaxy(Space& s) {
         const double r = length(d) + 1e-6;
         const double theta = arc_tangent(d.y, d.x);
         const double clump = fbm(p.x * 8, p.y * 8, 4, seed);
-        const double swirl = 0.5 + 0.5 * cosine(arms * theta - winding * logarithm(r + 0.08) * 1.3 + 1.2 * clump);
+        const double swirl =
+            0.5 + 0.5 * cosine(arms * theta - winding * logarithm(r + 0.08) * 1.3 +
+                               1.2 * clump);
         const double disc = exponential(-1.9 * r);
         const double light = disc * (0.25 + 1.6 * swirl * swirl) * (1 + 0.8 * clump);
         const double bulge = exponential(-r * r * 26);
-        const double knots = smoothstep(0.3, 0.7, noise(p.x * 42, p.y * 42, seed + 3)) * swirl * disc;
-        return Color{0.004, 0.005, 0.014} + mix(edge, arm, clamp01(1.4 - r)) * std::max(0.0, light) + core * (2.2 * bulge + 0.5 * disc * disc) +
+        const double knots =
+            smoothstep(0.3, 0.7, noise(p.x * 42, p.y * 42, seed + 3)) * swirl * disc;
+        return Color{0.004, 0.005, 0.014} +
+               mix(edge, arm, clamp01(1.4 - r)) * std::max(0.0, light) +
+               core * (2.2 * bulge + 0.5 * disc * disc) +
                Color{1.2, 0.5, 0.7} * (0.9 * knots);
     });
     stars(s, 300);
@@ -276,7 +315,8 @@ Label spiral_galaxy(Space& s) {
 Label eclipse(Space& s) {
     nebula(s, s.random.between(0.15, 0.5));
     stars(s, 200);
-    const Point centre{s.canvas.aspect() * s.random.between(0.35, 0.65), s.random.between(0.35, 0.65)};
+    const Point centre{s.canvas.aspect() * s.random.between(0.35, 0.65),
+                       s.random.between(0.35, 0.65)};
     const double r = s.random.between(0.15, 0.26);
     const std::uint32_t seed = s.random.noise_seed();
     const Color corona = oklch(0.82, 0.15, s.hue);
@@ -285,9 +325,13 @@ Label eclipse(Space& s) {
         const double out = length(d) / r - 1;
         if (out < -0.1) return below;
         const double theta = arc_tangent(d.y, d.x);
-        const double streamer = 0.6 + 0.7 * noise(cosine(theta) * 3.2, sine(theta) * 3.2, seed) + 0.35 * noise(cosine(theta) * 11, sine(theta) * 11, seed + 1);
-        const double light = exponential(-std::max(0.0, out) * (2.4 - 0.9 * streamer)) * std::max(0.15, streamer);
-        return below + mix(corona, Color{1, 0.97, 0.92}, exponential(-out * 5)) * (1.1 * light);
+        const double streamer =
+            0.6 + 0.7 * noise(cosine(theta) * 3.2, sine(theta) * 3.2, seed) +
+            0.35 * noise(cosine(theta) * 11, sine(theta) * 11, seed + 1);
+        const double light = exponential(-std::max(0.0, out) * (2.4 - 0.9 * streamer)) *
+                             std::max(0.15, streamer);
+        return below +
+               mix(corona, Color{1, 0.97, 0.92}, exponential(-out * 5)) * (1.1 * light);
     });
     s.canvas.disc(centre, r, {0.003, 0.003, 0.006});
     const Point bead = centre + turned({r, 0}, s.random.between(0, kTurn));

@@ -61,10 +61,11 @@ void paint_aurora(Canvas& canvas, double horizon, Random& random) {
                                 0.13 * fbm(p.x * 1.7, band * 5.0, 3, own);
             const double above = (edge - p.y) / horizon;
             if (above < -0.05) continue;
-            const double curtain = 0.35 + 0.65 * clamp01(0.5 + noise(p.x * 26, p.y * 1.2, own + 9) +
-                                                         0.5 * noise(p.x * 7, 0.5, own + 5));
-            const double light = smoothstep(-0.05, 0.03, above) * exponential(-3.4 * std::max(0.0, above)) *
-                                 curtain;
+            const double curtain =
+                0.35 + 0.65 * clamp01(0.5 + noise(p.x * 26, p.y * 1.2, own + 9) +
+                                      0.5 * noise(p.x * 7, 0.5, own + 5));
+            const double light = smoothstep(-0.05, 0.03, above) *
+                                 exponential(-3.4 * std::max(0.0, above)) * curtain;
             c = c + mix(low, high, smoothstep(0.0, 0.55, above)) * (0.75 * light);
         }
         return c;
@@ -93,7 +94,8 @@ void paint_sun(Canvas& canvas, const Sky& sky) {
     }
     canvas.shade(moon, 1, [&](Point p) {
         const Point q = (p - sky.sun) * (1 / r);
-        const double seas = smoothstep(0.05, 0.35, fbm(q.x * 1.5, q.y * 1.5, 4, sky.seed));
+        const double seas =
+            smoothstep(0.05, 0.35, fbm(q.x * 1.5, q.y * 1.5, 4, sky.seed));
         return mix(Color{1.5, 1.45, 1.3}, Color{0.85, 0.86, 0.9}, seas * 0.8);
     });
 }
@@ -102,7 +104,8 @@ void paint_clouds(Canvas& canvas, const Sky& sky, double horizon) {
     const double threshold = mix(0.34, -0.32, sky.cloudiness);
     const double softness = sky.hour == Hour::kStorm ? 0.55 : 0.34;
     const Point light = sky.sun;
-    const int last = std::min(canvas.height(), static_cast<int>((horizon + 0.02) * canvas.height()) + 1);
+    const int last = std::min(canvas.height(),
+                              static_cast<int>((horizon + 0.02) * canvas.height()) + 1);
     for (int y = 0; y < last; ++y) {
         for (int x = 0; x < canvas.width(); ++x) {
             const Point p = canvas.point(x, y);
@@ -118,8 +121,9 @@ void paint_clouds(Canvas& canvas, const Sky& sky, double horizon) {
             const double lit = clamp01(0.62 + 1.25 * (density + threshold - towards));
             const Point d = p - light;
             const double rim = exponential(-6 * (d.x * d.x + d.y * d.y));
-            const Color c = mix(sky.cloud_dark, sky.cloud_lit, clamp01(lit + 0.35 * rim)) +
-                            sky.sunlight * (0.3 * rim * (1 - clamp01(density * 2)));
+            const Color c =
+                mix(sky.cloud_dark, sky.cloud_lit, clamp01(lit + 0.35 * rim)) +
+                sky.sunlight * (0.3 * rim * (1 - clamp01(density * 2)));
             const double cover = smoothstep(0, softness, density) * near;
             canvas.set(x, y, mix(canvas.at(x, y), c, 0.92 * cover));
         }
@@ -149,7 +153,8 @@ Sky make_sky(Random& random, Hour hour, double aspect, double horizon) {
     Sky sky{.hour = hour, .ramp = sky_ramp(random, hour)};
     sky.seed = random.noise_seed();
     sky.haze = sky.ramp.at(0.92);
-    const bool low = hour == Hour::kSunset || hour == Hour::kGoldenHour || hour == Hour::kMorning;
+    const bool low =
+        hour == Hour::kSunset || hour == Hour::kGoldenHour || hour == Hour::kMorning;
     sky.sun = {aspect * random.between(0.12, 0.88),
                horizon * (low ? random.between(0.72, 0.98) : random.between(0.15, 0.5))};
     sky.sun_radius = low ? random.between(0.04, 0.085) : random.between(0.028, 0.06);
@@ -209,7 +214,11 @@ void paint_sky(Canvas& canvas, const Sky& sky, double horizon, Random& random) {
     if (sky.cloudiness > 0.05 && !sky.aurora) paint_clouds(canvas, sky, horizon);
 }
 
-void paint_birds(Canvas& canvas, Point around, int count, const Color& color, Random& random) {
+void paint_birds(Canvas& canvas,
+                 Point around,
+                 int count,
+                 const Color& color,
+                 Random& random) {
     for (int i = 0; i < count; ++i) {
         const double span = random.between(0.008, 0.02);
         const Point p = around + Point{random.bell() * 0.09, random.bell() * 0.035};

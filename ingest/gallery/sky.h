@@ -17,12 +17,12 @@ inline constexpr int kHours = 7;
 
 struct Sky {
     Hour hour = Hour::kNoon;
-    Ramp ramp;           // 0 = zenith, 1 = horizon
-    Point sun = {};      // or the moon
+    Ramp ramp;       // 0 = zenith, 1 = horizon
+    Point sun = {};  // or the moon
     double sun_radius = 0.05;
-    Color sunlight = {}; // what it casts on the ground
-    Color ambient = {};  // what the rest of the sky casts
-    Color haze = {};     // far things fade to this
+    Color sunlight = {};  // what it casts on the ground
+    Color ambient = {};   // what the rest of the sky casts
+    Color haze = {};      // far things fade to this
     Color cloud_lit = {};
     Color cloud_dark = {};
     double cloudiness = 0.5;  // 0 clear .. 1 covered
@@ -31,7 +31,9 @@ struct Sky {
 
     [[nodiscard]] std::string when() const;  // "at sunset"
     [[nodiscard]] std::string tag() const;
-    [[nodiscard]] bool dark() const { return hour == Hour::kNight || hour == Hour::kDusk; }
+    [[nodiscard]] bool dark() const {
+        return hour == Hour::kNight || hour == Hour::kDusk;
+    }
 };
 
 [[nodiscard]] Sky make_sky(Random& random, Hour hour, double aspect, double horizon);
@@ -40,6 +42,10 @@ struct Sky {
 void paint_sky(Canvas& canvas, const Sky& sky, double horizon, Random& random);
 
 // A few birds, far away.
-void paint_birds(Canvas& canvas, Point around, int count, const Color& color, Random& random);
+void paint_birds(Canvas& canvas,
+                 Point around,
+                 int count,
+                 const Color& color,
+                 Random& random);
 
 }  // namespace haarmony::gallery

@@ -13,8 +13,12 @@ Color lit_by(const Color& color, const Sky& sky) {
 
 }  // namespace
 
-void paint_conifer(
-    Canvas& canvas, Point at, double size, const Color& lit, const Color& shaded, Random& random) {
+void paint_conifer(Canvas& canvas,
+                   Point at,
+                   double size,
+                   const Color& lit,
+                   const Color& shaded,
+                   Random& random) {
     const double half = size * random.between(0.17, 0.25);
     constexpr int kTiers = 7;
     std::vector<Point> left;
@@ -31,7 +35,9 @@ void paint_conifer(
     std::vector<Point> outline{{at.x, at.y - size}};
     outline.insert(outline.end(), right.begin(), right.end());
     outline.insert(outline.end(), left.rbegin(), left.rend());
-    canvas.rectangle({at.x - size * 0.018, at.y - size * 0.12}, {at.x + size * 0.018, at.y}, shaded * 0.6);
+    canvas.rectangle({at.x - size * 0.018, at.y - size * 0.12},
+                     {at.x + size * 0.018, at.y},
+                     shaded * 0.6);
     canvas.shade(cover_polygon(canvas.frame(), outline), 1, [&](Point p) {
         const double side = (p.x - at.x) / half;
         const double tier = fraction((p.y - at.y) / size * kTiers * 1.09 + 100);
@@ -58,22 +64,32 @@ void paint_round_tree(Canvas& canvas,
         const double r = std::sqrt(random.unit()) * size * mix(0.40, 0.30, t);
         const Point offset{r * cosine(angle) * 1.05, r * sine(angle) * 0.88};
         const Point p = middle + offset + Point{side * 0.07 * t * size, -0.10 * t * size};
-        const double light = clamp01(0.30 + 0.55 * t + (side * offset.x - offset.y) / size * 0.5);
-        const Color c = shade_of(leaf, mix(0.5, 1.16, light) * random.between(0.88, 1.12));
+        const double light =
+            clamp01(0.30 + 0.55 * t + (side * offset.x - offset.y) / size * 0.5);
+        const Color c =
+            shade_of(leaf, mix(0.5, 1.16, light) * random.between(0.88, 1.12));
         canvas.disc(p, size * dab * random.between(0.03, 0.07), lit_by(c, sky), 0.9);
     }
 }
 
-void paint_palm(Canvas& canvas, Point at, double size, double lean, const Color& leaf, Random& random) {
+void paint_palm(Canvas& canvas,
+                Point at,
+                double size,
+                double lean,
+                const Color& leaf,
+                Random& random) {
     const Point top = at + Point{lean * size, -size};
     const Point trunk[] = {at, at + Point{lean * size * 0.25, -size * 0.5}, top};
-    canvas.taper(smooth_path(trunk, 10), size * 0.03, size * 0.016, leaf * Color{1.4, 0.8, 0.7});
+    canvas.taper(
+        smooth_path(trunk, 10), size * 0.03, size * 0.016, leaf * Color{1.4, 0.8, 0.7});
     const int fronds = 9 + random.below(4);
     for (int i = 0; i < fronds; ++i) {
         const double angle = kPi * (1.05 - 1.1 * (i + random.unit() * 0.5) / fronds) * -1;
         const double reach = size * random.between(0.38, 0.55);
-        const Point tip = top + Point{reach * cosine(angle), reach * sine(angle) * 0.55 + reach * 0.28};
-        const Point bend = top + Point{reach * 0.55 * cosine(angle), reach * 0.6 * sine(angle) - reach * 0.08};
+        const Point tip =
+            top + Point{reach * cosine(angle), reach * sine(angle) * 0.55 + reach * 0.28};
+        const Point bend = top + Point{reach * 0.55 * cosine(angle),
+                                       reach * 0.6 * sine(angle) - reach * 0.08};
         const Point rib[] = {top, bend, tip};
         const auto path = smooth_path(rib, 12);
         const Color c = shade_of(leaf, random.between(0.8, 1.25));
@@ -81,7 +97,11 @@ void paint_palm(Canvas& canvas, Point at, double size, double lean, const Color&
         for (std::size_t k = 2; k + 1 < path.size(); ++k) {
             const double t = static_cast<double>(k) / static_cast<double>(path.size());
             const double drop = reach * 0.24 * sine(kPi * (0.15 + 0.85 * t));
-            canvas.line(path[k], path[k] + Point{drop * 0.25 * cosine(angle), drop}, size * 0.008, c, 0.95);
+            canvas.line(path[k],
+                        path[k] + Point{drop * 0.25 * cosine(angle), drop},
+                        size * 0.008,
+                        c,
+                        0.95);
         }
     }
 }
@@ -95,7 +115,8 @@ void paint_house(Canvas& canvas,
     const double w = size * 0.62;
     const double eaves = at.y - size * 0.5;
     canvas.rectangle({at.x - w, eaves}, {at.x + w, at.y}, lit_by(wall, sky));
-    canvas.rectangle({at.x + w * 0.35, eaves}, {at.x + w, at.y}, lit_by(wall, sky) * 0.72);
+    canvas.rectangle(
+        {at.x + w * 0.35, eaves}, {at.x + w, at.y}, lit_by(wall, sky) * 0.72);
     const Point shape[] = {{at.x - w * 1.15, eaves},
                            {at.x - w * 0.75, at.y - size},
                            {at.x + w * 0.75, at.y - size},
@@ -108,8 +129,12 @@ void paint_house(Canvas& canvas,
                          pane);
 }
 
-void paint_sail_boat(
-    Canvas& canvas, Point at, double size, const Color& sail, const Color& hull, const Sky& sky) {
+void paint_sail_boat(Canvas& canvas,
+                     Point at,
+                     double size,
+                     const Color& sail,
+                     const Color& hull,
+                     const Sky& sky) {
     const double w = size * 0.42;
     const Point body[] = {{at.x - w, at.y - size * 0.13},
                           {at.x + w * 1.15, at.y - size * 0.15},
@@ -117,7 +142,8 @@ void paint_sail_boat(
                           {at.x - w * 0.75, at.y}};
     canvas.polygon(body, lit_by(hull, sky));
     const Point mast{at.x, at.y - size};
-    canvas.line({at.x, at.y - size * 0.1}, mast, size * 0.012, lit_by({0.2, 0.12, 0.07}, sky));
+    canvas.line(
+        {at.x, at.y - size * 0.1}, mast, size * 0.012, lit_by({0.2, 0.12, 0.07}, sky));
     const Point main_sail[] = {{at.x - size * 0.03, at.y - size * 0.96},
                                {at.x - size * 0.18, at.y - size * 0.55},
                                {at.x - w * 1.02, at.y - size * 0.2},
@@ -130,7 +156,11 @@ void paint_sail_boat(
     canvas.polygon(jib, lit_by(shade_of(sail, 0.85), sky));
 }
 
-void paint_lighthouse(Canvas& canvas, Point at, double size, const Color& stripe, const Sky& sky) {
+void paint_lighthouse(Canvas& canvas,
+                      Point at,
+                      double size,
+                      const Color& stripe,
+                      const Sky& sky) {
     const Point tower[] = {{at.x - size * 0.095, at.y},
                            {at.x - size * 0.062, at.y - size * 0.8},
                            {at.x + size * 0.062, at.y - size * 0.8},
@@ -144,9 +174,13 @@ void paint_lighthouse(Canvas& canvas, Point at, double size, const Color& stripe
         return lit_by(paint, sky) * (0.72 + 0.38 * across * side);
     });
     const double room = at.y - size * 0.8;
-    canvas.rectangle({at.x - size * 0.085, room - size * 0.02}, {at.x + size * 0.085, room}, lit_by({0.1, 0.1, 0.12}, sky));
+    canvas.rectangle({at.x - size * 0.085, room - size * 0.02},
+                     {at.x + size * 0.085, room},
+                     lit_by({0.1, 0.1, 0.12}, sky));
     const Color lamp = sky.dark() ? Color{4, 3.2, 1.6} : lit_by({0.8, 0.75, 0.5}, sky);
-    canvas.rectangle({at.x - size * 0.045, room - size * 0.11}, {at.x + size * 0.045, room - size * 0.02}, lamp);
+    canvas.rectangle({at.x - size * 0.045, room - size * 0.11},
+                     {at.x + size * 0.045, room - size * 0.02},
+                     lamp);
     const Point cap[] = {{at.x - size * 0.07, room - size * 0.11},
                          {at.x, room - size * 0.2},
                          {at.x + size * 0.07, room - size * 0.11}};
@@ -155,16 +189,26 @@ void paint_lighthouse(Canvas& canvas, Point at, double size, const Color& stripe
     const Point source{at.x, room - size * 0.065};
     canvas.glow(source, size * 0.8, {0.5, 0.4, 0.2});
     for (const double reach : {-1.0, 1.0}) {
-        const Point beam[] = {source, source + Point{reach * 3, -0.24}, source + Point{reach * 3, 0.12}};
-        canvas.each(cover_polygon(canvas.frame(), beam), [&](int x, int y, double covered) {
-            const double far = std::fabs(canvas.point(x, y).x - source.x);
-            const Color c = canvas.at(x, y);
-            canvas.set(x, y, c + Color{0.5, 0.42, 0.22} * (covered * exponential(-2.2 * far)));
-        });
+        const Point beam[] = {
+            source, source + Point{reach * 3, -0.24}, source + Point{reach * 3, 0.12}};
+        canvas.each(
+            cover_polygon(canvas.frame(), beam), [&](int x, int y, double covered) {
+                const double far = std::fabs(canvas.point(x, y).x - source.x);
+                const Color c = canvas.at(x, y);
+                canvas.set(
+                    x,
+                    y,
+                    c + Color{0.5, 0.42, 0.22} * (covered * exponential(-2.2 * far)));
+            });
     }
 }
 
-void paint_balloon(Canvas& canvas, Point at, double size, double hue, const Sky& sky, Random& random) {
+void paint_balloon(Canvas& canvas,
+                   Point at,
+                   double size,
+                   double hue,
+                   const Sky& sky,
+                   Random& random) {
     const double r = size * 0.42;
     const Point middle{at.x, at.y - size * 0.62};
     std::vector<Point> outline;
@@ -172,8 +216,9 @@ void paint_balloon(Canvas& canvas, Point at, double size, double hue, const Sky&
         const double t = kTurn * i / 64;
         const double below = std::max(0.0, sine(t));
         // The envelope narrows to its mouth.
-        outline.push_back(middle + Point{r * cosine(t) * (1 - 0.42 * below * below * below),
-                                         r * sine(t) * (1 + 0.32 * below)});
+        outline.push_back(middle +
+                          Point{r * cosine(t) * (1 - 0.42 * below * below * below),
+                                r * sine(t) * (1 + 0.32 * below)});
     }
     const int gores = 8 + 2 * random.below(4);
     const bool banded = random.chance(0.4);
@@ -198,7 +243,9 @@ void paint_balloon(Canvas& canvas, Point at, double size, double hue, const Sky&
                     {at.x + x * basket, at.y - basket * 1.6},
                     size * 0.005,
                     {0.08, 0.06, 0.05});
-    canvas.rectangle({at.x - basket, at.y - basket * 1.6}, {at.x + basket, at.y}, lit_by({0.32, 0.17, 0.07}, sky));
+    canvas.rectangle({at.x - basket, at.y - basket * 1.6},
+                     {at.x + basket, at.y},
+                     lit_by({0.32, 0.17, 0.07}, sky));
 }
 
 }  // namespace haarmony::gallery

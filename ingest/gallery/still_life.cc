@@ -17,12 +17,15 @@ struct Table {
     Random& random;
     double hue;
     Lamp lamp;
-    double edge;   // y where the table meets the wall
+    double edge;  // y where the table meets the wall
     bool dark;
 };
 
 void wall(Table& t) {
-    const Color paint = oklch(t.dark ? t.random.between(0.2, 0.34) : t.random.between(0.55, 0.86), t.random.between(0.06, 0.13), t.hue + 0.5);
+    const Color paint =
+        oklch(t.dark ? t.random.between(0.2, 0.34) : t.random.between(0.55, 0.86),
+              t.random.between(0.06, 0.13),
+              t.hue + 0.5);
     const std::uint32_t seed = t.random.noise_seed();
     const int manner = t.random.below(4);
     const Color second = shade_of(paint, t.dark ? 1.25 : 0.86);
@@ -47,8 +50,10 @@ void wall(Table& t) {
 void board(Table& t) {
     const bool cloth = t.random.chance(0.5);
     const int check = t.random.below(3);
-    const Color wood = oklch(t.random.between(0.4, 0.62), 0.08, t.random.between(0.12, 0.2));
-    const Color linen = oklch(t.random.between(0.8, 0.95), 0.05, t.hue + t.random.between(-0.1, 0.3));
+    const Color wood =
+        oklch(t.random.between(0.4, 0.62), 0.08, t.random.between(0.12, 0.2));
+    const Color linen =
+        oklch(t.random.between(0.8, 0.95), 0.05, t.hue + t.random.between(-0.1, 0.3));
     const Color stripe = oklch(0.55, 0.17, t.hue + t.random.pick({0.0, 0.33, 0.5}));
     const std::uint32_t seed = t.random.noise_seed();
     const double aspect = t.canvas.aspect();
@@ -63,18 +68,25 @@ void board(Table& t) {
             const bool along = fraction(depth * 9) < 0.5;
             if (check == 1 && across != along) c = stripe;
             if (check == 2 && across) c = mix(linen, stripe, 0.8);
-            c = c * (1 + 0.09 * fbm(p.x * 3, p.y * 7, 3, seed) + 0.03 * noise(p.x * 200, p.y * 200, seed));
+            c = c * (1 + 0.09 * fbm(p.x * 3, p.y * 7, 3, seed) +
+                     0.03 * noise(p.x * 200, p.y * 200, seed));
         } else {
-            const double grain = fbm(u * 3 + 9, depth * 34, 3, seed) + 0.4 * noise(u * 6, depth * 120, seed + 1);
+            const double grain = fbm(u * 3 + 9, depth * 34, 3, seed) +
+                                 0.4 * noise(u * 6, depth * 120, seed + 1);
             c = wood * (1 + 0.22 * grain) * (fraction(depth * 3.2) < 0.03 ? 0.6 : 1);
         }
-        const double near_lamp = 0.62 + 0.4 * clamp01(0.5 + t.lamp.side * (p.x / aspect - 0.5)) - 0.25 * (p.y - t.edge);
+        const double near_lamp = 0.62 +
+                                 0.4 * clamp01(0.5 + t.lamp.side * (p.x / aspect - 0.5)) -
+                                 0.25 * (p.y - t.edge);
         const Color lit = c * (t.lamp.shade * 0.4 + t.lamp.light * near_lamp);
         return mix(below, lit, clamp01((p.y - t.edge) * t.canvas.height() + 0.5));
     });
     const Point line[] = {{-0.1, t.edge + 0.004}, {aspect + 0.1, t.edge + 0.004}};
     const double radii[] = {0.006, 0.006};
-    t.canvas.glaze(soften(t.canvas.frame(), cover_stroke(t.canvas.frame(), line, radii), 0.006), {0.2, 0.2, 0.24}, 0.5);
+    t.canvas.glaze(
+        soften(t.canvas.frame(), cover_stroke(t.canvas.frame(), line, radii), 0.006),
+        {0.2, 0.2, 0.24},
+        0.5);
 }
 
 Table lay(Canvas& canvas, Commission& commission) {
@@ -84,14 +96,16 @@ Table lay(Canvas& canvas, Commission& commission) {
     table.lamp.side = random.sign();
     const bool warm = random.chance(0.65);
     table.lamp.light = warm ? Color{1.12, 1.0, 0.84} : Color{0.98, 1.02, 1.08};
-    table.lamp.shade = (warm ? Color{0.5, 0.5, 0.68} : Color{0.55, 0.5, 0.5}) * (dark ? 0.6 : 1);
+    table.lamp.shade =
+        (warm ? Color{0.5, 0.5, 0.68} : Color{0.55, 0.5, 0.5}) * (dark ? 0.6 : 1);
     wall(table);
     board(table);
     return table;
 }
 
 Fruit fruit_of(Commission& commission, int offset) {
-    return static_cast<Fruit>((commission.turn * 2 + commission.turn / 5 + offset) % kFruits);
+    return static_cast<Fruit>((commission.turn * 2 + commission.turn / 5 + offset) %
+                              kFruits);
 }
 
 void place_fruit(Table& t, Fruit fruit, Point at, double size) {
@@ -111,7 +125,12 @@ void bowl_of(Table& t, Point at, double half, Fruit fruit, Fruit second) {
         for (int i = 0; i < count; ++i) {
             const double x = (i - (count - 1) / 2.0) * size * 1.65;
             const double y = height * 0.72 + row * size * 1.15;
-            paint_fruit(t.canvas, t.lamp, (i + row) % 3 == 1 ? second : fruit, at + Point{x, -y}, size * t.random.between(0.92, 1.05), t.random);
+            paint_fruit(t.canvas,
+                        t.lamp,
+                        (i + row) % 3 == 1 ? second : fruit,
+                        at + Point{x, -y},
+                        size * t.random.between(0.92, 1.05),
+                        t.random);
         }
     }
     // Only the outside of the bowl: its mouth is full.
@@ -120,36 +139,52 @@ void bowl_of(Table& t, Point at, double half, Fruit fruit, Fruit second) {
         const double a = kPi * i / 24;
         outline.push_back(at + Point{half * cosine(a), -height + half * 0.16 * sine(a)});
     }
-    for (const double y : {0.7, 0.4, 0.12}) outline.push_back(at + Point{-half * (0.5 + 0.5 * power(y, 0.6)), -height * y});
-    for (int i = 0; i <= 8; ++i) outline.push_back(at + Point{half * 0.5 * -cosine(kPi * i / 8), half * 0.07 * sine(kPi * i / 8)});
-    for (const double y : {0.12, 0.4, 0.7}) outline.push_back(at + Point{half * (0.5 + 0.5 * power(y, 0.6)), -height * y});
-    const Color body = oklch(t.random.between(0.5, 0.9), 0.12, t.hue + t.random.pick({0.0, 0.4, 0.55}));
+    for (const double y : {0.7, 0.4, 0.12})
+        outline.push_back(at + Point{-half * (0.5 + 0.5 * power(y, 0.6)), -height * y});
+    for (int i = 0; i <= 8; ++i)
+        outline.push_back(at + Point{half * 0.5 * -cosine(kPi * i / 8),
+                                     half * 0.07 * sine(kPi * i / 8)});
+    for (const double y : {0.12, 0.4, 0.7})
+        outline.push_back(at + Point{half * (0.5 + 0.5 * power(y, 0.6)), -height * y});
+    const Color body =
+        oklch(t.random.between(0.5, 0.9), 0.12, t.hue + t.random.pick({0.0, 0.4, 0.55}));
     const Color decor = shade_of(body, 0.6);
     const int pattern = t.random.below(3);
     t.canvas.shade(cover_polygon(t.canvas.frame(), outline), 1, [&](Point p) {
         const double u = clamp((p.x - at.x) / half, -1, 1);
         const double up = (at.y - p.y) / height - 0.15 * (1 - u * u);
         const double nz = std::sqrt(std::max(0.0, 1 - u * u));
-        const double facing = clamp01(0.35 + 0.5 * u * t.lamp.side + 0.25 * nz + 0.2 * (up - 0.5));
-        const bool drawn = (pattern == 1 && up > 0.55 && up < 0.72) || (pattern == 2 && fraction(u * 3 / (0.5 + nz) + up * 0.5 + 4) < 0.3);
+        const double facing =
+            clamp01(0.35 + 0.5 * u * t.lamp.side + 0.25 * nz + 0.2 * (up - 0.5));
+        const bool drawn =
+            (pattern == 1 && up > 0.55 && up < 0.72) ||
+            (pattern == 2 && fraction(u * 3 / (0.5 + nz) + up * 0.5 + 4) < 0.3);
         const Color c = drawn ? decor : body;
-        return c * (t.lamp.shade * 0.35 + t.lamp.light * facing) + t.lamp.light * (0.3 * power(clamp01(0.9 * nz + 0.42 * u * t.lamp.side), 30));
+        return c * (t.lamp.shade * 0.35 + t.lamp.light * facing) +
+               t.lamp.light *
+                   (0.3 * power(clamp01(0.9 * nz + 0.42 * u * t.lamp.side), 30));
     });
 }
 
-constexpr std::array<std::array<double, 6>, 5> kVaseShapes = {{{0.45, 0.8, 1.0, 0.75, 0.42, 0.55},
-                                                               {0.6, 0.62, 0.7, 0.82, 0.95, 1.0},
-                                                               {0.7, 1.0, 0.9, 0.5, 0.34, 0.4},
-                                                               {0.5, 0.6, 0.85, 1.0, 0.7, 0.6},
-                                                               {0.95, 1.0, 1.0, 0.98, 0.4, 0.36}}};
+constexpr std::array<std::array<double, 6>, 5> kVaseShapes = {
+    {{0.45, 0.8, 1.0, 0.75, 0.42, 0.55},
+     {0.6, 0.62, 0.7, 0.82, 0.95, 1.0},
+     {0.7, 1.0, 0.9, 0.5, 0.34, 0.4},
+     {0.5, 0.6, 0.85, 1.0, 0.7, 0.6},
+     {0.95, 1.0, 1.0, 0.98, 0.4, 0.36}}};
 
 // A vase of some shape; returns the middle of its mouth.
 Point vase(Table& t, Point at, double height, double half, Glaze glaze) {
     std::vector<double> widths;
-    for (const double w : t.random.pick(std::span<const std::array<double, 6>>(kVaseShapes))) widths.push_back(w * half);
+    for (const double w :
+         t.random.pick(std::span<const std::array<double, 6>>(kVaseShapes)))
+        widths.push_back(w * half);
     paint_cast_shadow(t.canvas, t.lamp, at, half * 0.8, height);
-    const Color body = oklch(t.random.between(0.35, 0.82), 0.13, t.hue + t.random.pick({0.0, 0.5, 0.33, 0.15}));
-    const Color decor = t.random.chance(0.5) ? Color{0.85, 0.83, 0.78} : shade_of(body, 0.5);
+    const Color body = oklch(t.random.between(0.35, 0.82),
+                             0.13,
+                             t.hue + t.random.pick({0.0, 0.5, 0.33, 0.15}));
+    const Color decor =
+        t.random.chance(0.5) ? Color{0.85, 0.83, 0.78} : shade_of(body, 0.5);
     paint_vessel(t.canvas, t.lamp, at, {widths, height}, glaze, body, decor);
     return at - Point{0, height};
 }
@@ -159,21 +194,38 @@ Glaze any_glaze(Random& random) { return static_cast<Glaze>(random.below(5)); }
 Label fruit_bowl(Canvas& canvas, Commission& commission) {
     Table t = lay(canvas, commission);
     const Fruit fruit = fruit_of(commission, 0);
-    const Fruit first = fruit == Fruit::kGrapes || fruit == Fruit::kMelon ? Fruit::kApple : fruit;
+    const Fruit first =
+        fruit == Fruit::kGrapes || fruit == Fruit::kMelon ? Fruit::kApple : fruit;
     const double x = canvas.aspect() * t.random.between(0.4, 0.6);
     const double half = 0.27 * std::min(1.2, canvas.aspect());
-    if (t.random.chance(0.6)) vase(t, {x + t.random.sign() * half * 1.15, t.edge + 0.07}, t.random.between(0.36, 0.5), 0.09, any_glaze(t.random));
-    bowl_of(t, {x, t.edge + 0.17}, half, first, t.random.chance(0.5) ? Fruit::kMandarin : Fruit::kPlum);
-    for (int i = 0; i < 3; ++i) place_fruit(t, fruit_of(commission, i), {canvas.aspect() * fraction(0.14 + i * 0.618), t.edge + 0.24 + 0.03 * i}, 0.06);
+    if (t.random.chance(0.6))
+        vase(t,
+             {x + t.random.sign() * half * 1.15, t.edge + 0.07},
+             t.random.between(0.36, 0.5),
+             0.09,
+             any_glaze(t.random));
+    bowl_of(t,
+            {x, t.edge + 0.17},
+            half,
+            first,
+            t.random.chance(0.5) ? Fruit::kMandarin : Fruit::kPlum);
+    for (int i = 0; i < 3; ++i)
+        place_fruit(
+            t,
+            fruit_of(commission, i),
+            {canvas.aspect() * fraction(0.14 + i * 0.618), t.edge + 0.24 + 0.03 * i},
+            0.06);
     return {std::string("Bowl of ") + name_of(first), {"bowl", "fruit"}};
 }
 
 Label vase_of_flowers(Canvas& canvas, Commission& commission) {
     Table t = lay(canvas, commission);
-    const Point foot{canvas.aspect() * t.random.between(0.4, 0.6), t.edge + t.random.between(0.14, 0.2)};
+    const Point foot{canvas.aspect() * t.random.between(0.4, 0.6),
+                     t.edge + t.random.between(0.14, 0.2)};
     const double height = t.random.between(0.28, 0.36);
     const Point mouth{foot.x, foot.y - height};
-    const Color green = oklch(0.48, 0.11, kGreen) * (t.lamp.light * 0.7 + t.lamp.shade * 0.3);
+    const Color green =
+        oklch(0.48, 0.11, kGreen) * (t.lamp.light * 0.7 + t.lamp.shade * 0.3);
     const double reach = 0.34 * std::min(1.1, canvas.aspect());
     const int count = 9 + t.random.below(6);
     std::vector<Point> heads;
@@ -185,13 +237,29 @@ Label vase_of_flowers(Canvas& canvas, Commission& commission) {
         const Point way[] = {mouth, (mouth + head) * 0.5 + Point{0, -0.02}, head};
         canvas.taper(smooth_path(way, 8), 0.006, 0.004, green);
     }
-    for (int i = 0; i < 12; ++i) paint_leaf(canvas, mouth - Point{0, 0.02}, t.random.between(-1.7, 1.7), reach * t.random.between(0.5, 0.9), 0.36, green);
+    for (int i = 0; i < 12; ++i)
+        paint_leaf(canvas,
+                   mouth - Point{0, 0.02},
+                   t.random.between(-1.7, 1.7),
+                   reach * t.random.between(0.5, 0.9),
+                   0.36,
+                   green);
     const auto first = static_cast<Species>(commission.turn % kSpecies);
     const auto second = static_cast<Species>((commission.turn * 3 + 2) % kSpecies);
     for (std::size_t i = 0; i < heads.size(); ++i)
-        paint_blossom(canvas, i % 3 == 0 ? second : first, heads[i], t.random.between(0.065, 0.115), commission.hue + (i % 3 == 0 ? 0.3 : 0.04 * static_cast<double>(i % 4)), t.random);
+        paint_blossom(
+            canvas,
+            i % 3 == 0 ? second : first,
+            heads[i],
+            t.random.between(0.065, 0.115),
+            commission.hue + (i % 3 == 0 ? 0.3 : 0.04 * static_cast<double>(i % 4)),
+            t.random);
     vase(t, foot, height, t.random.between(0.1, 0.14), any_glaze(t.random));
-    for (int i = 0; i < t.random.below(4); ++i) place_fruit(t, fruit_of(commission, 0), {foot.x + (i - 1) * 0.2 + 0.1, foot.y + 0.1}, 0.055);
+    for (int i = 0; i < t.random.below(4); ++i)
+        place_fruit(t,
+                    fruit_of(commission, 0),
+                    {foot.x + (i - 1) * 0.2 + 0.1, foot.y + 0.1},
+                    0.055);
     return {std::string("Vase of ") + name_of(first), {"vase", "flowers"}};
 }
 
@@ -201,9 +269,18 @@ Label row_of_vessels(Canvas& canvas, Commission& commission) {
     for (int i = 0; i < count; ++i) {
         const double height = t.random.between(0.18, 0.52);
         t.hue = commission.hue + 0.11 * i;
-        vase(t, {canvas.aspect() * (i + 0.5 + t.random.between(-0.15, 0.15)) / count, t.edge + t.random.between(0.06, 0.13)}, height, t.random.between(0.055, 0.1), any_glaze(t.random));
+        vase(t,
+             {canvas.aspect() * (i + 0.5 + t.random.between(-0.15, 0.15)) / count,
+              t.edge + t.random.between(0.06, 0.13)},
+             height,
+             t.random.between(0.055, 0.1),
+             any_glaze(t.random));
     }
-    for (int i = 0; i < 3; ++i) place_fruit(t, fruit_of(commission, i), {canvas.aspect() * fraction(0.22 + i * 0.37), t.edge + 0.24}, t.random.between(0.045, 0.065));
+    for (int i = 0; i < 3; ++i)
+        place_fruit(t,
+                    fruit_of(commission, i),
+                    {canvas.aspect() * fraction(0.22 + i * 0.37), t.edge + 0.24},
+                    t.random.between(0.045, 0.065));
     return {"Jugs and bottles", {"vessels", "bottles"}};
 }
 
@@ -215,7 +292,11 @@ Label fruit_on_table(Canvas& canvas, Commission& commission) {
     for (int i = 0; i < count; ++i) {
         const double depth = static_cast<double>(i) / (count - 1);
         const Fruit fruit = i % 3 == 2 ? fruit_of(commission, 1 + i) : main;
-        place_fruit(t, fruit, {canvas.aspect() * mix(0.14, 0.86, fraction(0.2 + i * 0.618)), mix(t.edge + 0.07, 0.96, depth)}, size * mix(0.8, 1.15, depth));
+        place_fruit(t,
+                    fruit,
+                    {canvas.aspect() * mix(0.14, 0.86, fraction(0.2 + i * 0.618)),
+                     mix(t.edge + 0.07, 0.96, depth)},
+                    size * mix(0.8, 1.15, depth));
     }
     return {std::string("Table with ") + name_of(main), {"table", "fruit"}};
 }
@@ -235,19 +316,30 @@ Label by_candle(Canvas& canvas, Commission& commission) {
     t.lamp.side = -beside;
     vase(t, {x + beside * 0.3, t.edge + 0.1}, 0.34, 0.1, any_glaze(t.random));
     for (int i = 0; i < candles; ++i) {
-        const Point at{x + (i - (candles - 1) / 2.0) * 0.12, t.edge + 0.13 + 0.03 * (i % 2)};
+        const Point at{x + (i - (candles - 1) / 2.0) * 0.12,
+                       t.edge + 0.13 + 0.03 * (i % 2)};
         paint_cast_shadow(canvas, t.lamp, at, 0.04, 0.05);
         paint_candle(canvas, t.lamp, at, t.random.between(0.24, 0.4), wax);
     }
-    for (int i = 0; i < 3; ++i) place_fruit(t, fruit_of(commission, i), {x + beside * (0.1 + 0.16 * i), t.edge + 0.25}, 0.065);
+    for (int i = 0; i < 3; ++i)
+        place_fruit(t,
+                    fruit_of(commission, i),
+                    {x + beside * (0.1 + 0.16 * i), t.edge + 0.25},
+                    0.065);
     return {"By candlelight", {"candle", "night"}};
 }
 
 }  // namespace
 
 Label paint_still_life(Canvas& canvas, Commission& commission) {
-    static constexpr std::array kScenes = {fruit_bowl, vase_of_flowers, fruit_on_table, row_of_vessels, vase_of_flowers, by_candle};
-    Label label = kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](canvas, commission);
+    static constexpr std::array kScenes = {fruit_bowl,
+                                           vase_of_flowers,
+                                           fruit_on_table,
+                                           row_of_vessels,
+                                           vase_of_flowers,
+                                           by_candle};
+    Label label = kScenes[static_cast<std::size_t>(commission.turn) % kScenes.size()](
+        canvas, commission);
     label.tags.insert(label.tags.begin(), "still life");
     return label;
 }

@@ -16,8 +16,7 @@ void cover_below(Canvas& canvas, Line&& line, F&& color) {
         const int first = std::max(0, floor_int(crest * canvas.height()));
         for (int y = first; y < canvas.height(); ++y) {
             const Point p = canvas.point(x, y);
-            const double covered =
-                clamp01((p.y - crest) * canvas.height() + 0.5);
+            const double covered = clamp01((p.y - crest) * canvas.height() + 0.5);
             const Color c = color(p, std::max(0.0, p.y - crest));
             canvas.set(x, y, covered < 1 ? mix(canvas.at(x, y), c, covered) : c);
         }
@@ -34,7 +33,8 @@ double Range::crest(double x) const {
     const double rolling = 0.5 + 0.5 * fbm(x * frequency, 0.37, 4, seed);
     // Peaks stand in groups: between them the range sinks to a third.
     const double group = 1 - std::fabs(noise(x * frequency * 0.55, 3.1, seed + 1));
-    return base - height * mix(rolling, alpine, sharpness) * mix(0.35, 1.55, group * group);
+    return base -
+           height * mix(rolling, alpine, sharpness) * mix(0.35, 1.55, group * group);
 }
 
 void paint_range(Canvas& canvas, const Sky& sky, const Range& range) {
@@ -50,18 +50,26 @@ void paint_range(Canvas& canvas, const Sky& sky, const Range& range) {
             const double u = p.x * f + 0.35 * depth * f;
             const double v = p.y * f * 0.75;
             const double here = ridged(u, v, 4, range.seed + 3);
-            const double aside = ridged(u + 0.16 * light_side(sky, p.x), v - 0.1, 3, range.seed + 3);
+            const double aside =
+                ridged(u + 0.16 * light_side(sky, p.x), v - 0.1, 3, range.seed + 3);
             const double lit = clamp01(0.45 + 1.5 * (here - aside));
-            const double foot = smoothstep(0.45, 1.0, depth / range.height + 0.25 * (here - 0.5));
+            const double foot =
+                smoothstep(0.45, 1.0, depth / range.height + 0.25 * (here - 0.5));
             const Color ground = mix(range.rock, range.grass, foot);
             Color c = ground * (sky.ambient * 0.9 + sky.sunlight * (0.95 * lit));
             if (range.snow > 0) {
-                const double fallen = smoothstep(
-                    0.035, -0.035, p.y - snow_limit + 0.16 * range.height * (0.5 - here) * 2);
-                c = mix(c, mix(snow_dark, snow_lit, lit) * (luminance(sky.sunlight) * 0.7 + 0.3), fallen);
+                const double fallen =
+                    smoothstep(0.035,
+                               -0.035,
+                               p.y - snow_limit + 0.16 * range.height * (0.5 - here) * 2);
+                c = mix(
+                    c,
+                    mix(snow_dark, snow_lit, lit) * (luminance(sky.sunlight) * 0.7 + 0.3),
+                    fallen);
             }
-            const double mist = range.distance + (1 - range.distance) * 0.45 *
-                                                     smoothstep(0.5, 1.3, depth / range.height);
+            const double mist =
+                range.distance +
+                (1 - range.distance) * 0.45 * smoothstep(0.5, 1.3, depth / range.height);
             return mix(c, sky.haze, clamp01(mist));
         });
 }
@@ -78,7 +86,8 @@ void paint_hill(Canvas& canvas, const Sky& sky, const Hill& hill) {
         [&](Point p, double depth) {
             const double slope = (hill.crest(p.x + 0.03) - hill.crest(p.x - 0.03)) / 0.06;
             const double facing = clamp01(0.55 - slope * 2.2 * light_side(sky, p.x));
-            const double patches = 0.5 + 0.5 * fbm(p.x * 5 + slope, p.y * 16, 3, hill.seed + 2);
+            const double patches =
+                0.5 + 0.5 * fbm(p.x * 5 + slope, p.y * 16, 3, hill.seed + 2);
             const double blades = noise(p.x * 150, p.y * 45, hill.seed + 7);
             const double t = facing * 0.55 + patches * 0.55 - depth * 0.5;
             return mix(hill.shaded, hill.lit, clamp01(t)) * light *
@@ -105,11 +114,12 @@ void paint_dunes(Canvas& canvas,
         const double side = light_side(sky, canvas.aspect() / 2 + 0.1) < 0 ? -1 : 1;
         cover_below(canvas, crest, [&](Point p, double depth) {
             // The edge between the lit and the shaded face runs down from the crest aslant.
-            const double x = p.x + side * depth * 1.1 + 0.25 * depth * noise(depth * 7, row, own);
+            const double x =
+                p.x + side * depth * 1.1 + 0.25 * depth * noise(depth * 7, row, own);
             const double slope = (crest(x + 0.012) - crest(x - 0.012)) / 0.024;
             const double lit = smoothstep(-0.12, 0.16, depth * 0.35 - slope * side);
-            const double wind =
-                sine((p.y * 150 + 9 * noise(p.x * 4, p.y * 9, own + 2)) * (1.4 - 0.7 * t));
+            const double wind = sine((p.y * 150 + 9 * noise(p.x * 4, p.y * 9, own + 2)) *
+                                     (1.4 - 0.7 * t));
             const Color lit_sand = sand * (sky.sunlight * 1.15 + sky.ambient * 0.3);
             const Color dark_sand = sand * (sky.ambient * 0.75 + sky.sunlight * 0.16);
             const Color c = mix(dark_sand, lit_sand, lit) * (1 + 0.045 * wind * t);
@@ -131,7 +141,9 @@ void paint_rows(Canvas& canvas,
     const Color leaf = oklch(0.38, 0.09, kGreen);
     const double swing = random.between(-0.25, 0.25);
     cover_below(
-        canvas, [&](double) { return horizon; }, [&](Point p, double depth) {
+        canvas,
+        [&](double) { return horizon; },
+        [&](Point p, double depth) {
             const double z = 1 / (depth + 0.02);
             const double row = (p.x - vanish) * z * density * 0.35 +
                                swing * z * 0.06 * sine(z * 0.35) + 100;
@@ -151,8 +163,11 @@ void paint_rows(Canvas& canvas,
         });
 }
 
-void paint_water(
-    Canvas& canvas, double shore, const Color& water, double ripple, std::uint32_t seed) {
+void paint_water(Canvas& canvas,
+                 double shore,
+                 const Color& water,
+                 double ripple,
+                 std::uint32_t seed) {
     const int first = std::max(1, floor_int(shore * canvas.height()));
     for (int y = first; y < canvas.height(); ++y) {
         const double depth = canvas.point(0, y).y - shore;
@@ -160,22 +175,26 @@ void paint_water(
         for (int x = 0; x < canvas.width(); ++x) {
             const Point p = canvas.point(x, y);
             const double scale = 1 / (0.08 + depth);
-            const double wave = noise(p.x * scale * 1.1, depth * scale * 26, seed) +
-                                0.5 * noise(p.x * scale * 3.1, depth * scale * 60, seed + 1);
-            const Point mirrored{p.x + 0.006 * ripple * wave * near,
-                                 shore - depth * 0.94 - 0.035 * ripple * wave * (0.15 + near)};
-            Color c = canvas.sample({mirrored.x, std::min(mirrored.y, shore - canvas.pixel())});
+            const double wave =
+                noise(p.x * scale * 1.1, depth * scale * 26, seed) +
+                0.5 * noise(p.x * scale * 3.1, depth * scale * 60, seed + 1);
+            const Point mirrored{
+                p.x + 0.006 * ripple * wave * near,
+                shore - depth * 0.94 - 0.035 * ripple * wave * (0.15 + near)};
+            Color c =
+                canvas.sample({mirrored.x, std::min(mirrored.y, shore - canvas.pixel())});
             // Looking down one sees into the water, looking along it the sky.
             const double into = 0.16 + 0.5 * near * near + 0.1 * wave;
             c = mix(c * 0.9, water, clamp01(into));
             canvas.set(x, y, c);
         }
     }
-    const Mask bank = soften(canvas.frame(),
-                             cover_stroke(canvas.frame(),
-                                          std::vector<Point>{{-0.1, shore}, {canvas.aspect() + 0.1, shore}},
-                                          std::vector<double>{0.003, 0.003}),
-                             0.002);
+    const Mask bank = soften(
+        canvas.frame(),
+        cover_stroke(canvas.frame(),
+                     std::vector<Point>{{-0.1, shore}, {canvas.aspect() + 0.1, shore}},
+                     std::vector<double>{0.003, 0.003}),
+        0.002);
     canvas.glaze(bank, {0.4, 0.42, 0.45}, 0.7);
 }
 

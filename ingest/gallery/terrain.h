@@ -22,7 +22,7 @@ struct Range {
     double distance = 0.5;   // 0 near .. 1 lost in the haze
     double snow = 0;         // 0 none .. 1 down to the valley
     Color rock = {};
-    Color grass = {};        // of the foot
+    Color grass = {};  // of the foot
     std::uint32_t seed = 0;
 
     // y of its crest at x.
@@ -33,12 +33,12 @@ struct Range {
 void paint_range(Canvas& canvas, const Sky& sky, const Range& range);
 
 struct Hill {
-    double base = 0.8;       // y of its middle
+    double base = 0.8;  // y of its middle
     double height = 0.06;
     double frequency = 0.9;
     Color lit = {};
     Color shaded = {};
-    double texture = 1;      // of grass, 0 = smooth
+    double texture = 1;  // of grass, 0 = smooth
     std::uint32_t seed = 0;
 
     [[nodiscard]] double crest(double x) const;
@@ -63,7 +63,10 @@ void paint_rows(Canvas& canvas,
 
 // Mirrors what stands above `shore` into water of this colour below it.
 // Requires: 0 < ripple, about 1 for a breeze.
-void paint_water(
-    Canvas& canvas, double shore, const Color& water, double ripple, std::uint32_t seed);
+void paint_water(Canvas& canvas,
+                 double shore,
+                 const Color& water,
+                 double ripple,
+                 std::uint32_t seed);
 
 }  // namespace haarmony::gallery

@@ -61,7 +61,8 @@ void box_blur(Canvas& canvas, int half) {
     const auto pass = [&](int lines, int count, auto get, auto put) {
         std::vector<Color> old(static_cast<std::size_t>(count));
         for (int line = 0; line < lines; ++line) {
-            for (int i = 0; i < count; ++i) old[static_cast<std::size_t>(i)] = get(line, i);
+            for (int i = 0; i < count; ++i)
+                old[static_cast<std::size_t>(i)] = get(line, i);
             const auto clamped = [&](int i) {
                 return old[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
             };
@@ -113,8 +114,7 @@ std::vector<std::uint8_t> to_bytes(const Varnish& varnish, const Canvas& canvas)
     std::vector<std::uint8_t> bytes;
     bytes.reserve(static_cast<std::size_t>(canvas.width()) * canvas.height() * 3);
     const auto display = [&](double light) {
-        const double position =
-            std::sqrt(clamp(light, 0, kWhite) / kWhite) * kCurveSteps;
+        const double position = std::sqrt(clamp(light, 0, kWhite) / kWhite) * kCurveSteps;
         const int step = std::min(static_cast<int>(position), kCurveSteps - 1);
         const auto i = static_cast<std::size_t>(step);
         return mix(curve[i], curve[i + 1], position - step);
@@ -127,8 +127,8 @@ std::vector<std::uint8_t> to_bytes(const Varnish& varnish, const Canvas& canvas)
                                  lattice_unit(x, y, varnish.seed + 1) - 1;
             const double grain = speck * (varnish.grain * 255 / 0.41);
             for (const double light : {c.r, c.g, c.b})
-                bytes.push_back(
-                    static_cast<std::uint8_t>(clamp(display(light) + grain + 0.5, 0, 255)));
+                bytes.push_back(static_cast<std::uint8_t>(
+                    clamp(display(light) + grain + 0.5, 0, 255)));
         }
     }
     return bytes;
