@@ -6,7 +6,8 @@ import { KeyWanted, Overloaded, Refused, Unreachable } from './failures.js';
 /**
  * @typedef {object} Picture
  * @property {number} id
- * @property {string} [uri]
+ * @property {string | null} [uri]
+ * @property {string | null} [thumbnail]
  * @property {number} [width]
  * @property {number} [height]
  * @property {string[]} [tags]

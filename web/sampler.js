@@ -50,7 +50,8 @@ export class Sampler {
   async #readOn() {
     if (this.#complete || this.#pictures.length >= kMost) return;
     const page = await this.#list(kPage, this.#cursor);
-    this.#pictures.push(...page.items);
+    // A row whose file could not be read has no thumbnail and is found by no search.
+    this.#pictures.push(...page.items.filter(({ thumbnail }) => thumbnail !== null));
     this.#cursor = page.next_cursor ?? null;
     this.#complete = this.#cursor === null;
   }

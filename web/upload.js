@@ -1,6 +1,26 @@
 // A picture from outside as the query: chosen, dropped or pasted.
 
+import { fitInto } from './canvas/rect.js';
 import { byId } from './dom.js';
+
+const kPreviewSide = 160;
+
+/**
+ * A small copy for the page, null where the browser cannot read the file: the server may.
+ * @param {File} file
+ * @returns {Promise<string | null>} data: address
+ */
+export async function previewOf(file) {
+  try {
+    const bitmap = await createImageBitmap(file);
+    const canvas = document.createElement('canvas');
+    Object.assign(canvas, fitInto(bitmap.width, bitmap.height, kPreviewSide));
+    canvas.getContext('2d')?.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+    return canvas.toDataURL('image/png');
+  } catch {
+    return null;
+  }
+}
 
 /** @param {(file: File) => void} use */
 export function listenForPictures(use) {

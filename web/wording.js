@@ -28,7 +28,7 @@ export function duration(ms) {
 
 /**
  * The file's name of a picture's address, readable.
- * @param {{id: number, uri?: string}} picture
+ * @param {{id: number, uri?: string | null}} picture
  */
 export function nameOf({ id, uri }) {
   const last = (uri ?? '').replace(/[?#].*$/, '').split('/').pop() ?? '';

@@ -34,6 +34,12 @@ test('avoids pictures that are shown already, unless there are no others', async
   assert.deepEqual(ids(await sampler.draw(1, [1, 2, 3])), [1]);
 });
 
+test('rows whose file could not be read are not offered', async () => {
+  const items = [{ id: 1, thumbnail: null }, { id: 2, thumbnail: '/images/2/thumbnail' }];
+  const sampler = new Sampler(async () => ({ items, next_cursor: null }), () => 0);
+  assert.deepEqual(ids(await sampler.draw(5)), [2]);
+});
+
 test('each draw reads one page more, until the end', async () => {
   const { list, calls } = collection(450);
   const sampler = new Sampler(list, () => 0.999999);

@@ -24,4 +24,5 @@ test('a picture is called by its file', () => {
   assert.equal(nameOf({ id: 1, uri: 'file:///a/caf%E9.jpg' }), 'caf%E9.jpg');
   assert.equal(nameOf({ id: 7, uri: 'https://example.org/' }), 'Picture 7');
   assert.equal(nameOf({ id: 7 }), 'Picture 7');
+  assert.equal(nameOf({ id: 7, uri: null }), 'Picture 7');
 });

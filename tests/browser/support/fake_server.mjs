@@ -10,7 +10,9 @@ import { encodePng } from './png.mjs';
 
 const kWeb = fileURLToPath(new URL('../../../web/', import.meta.url));
 /** What the daemon sends with the page. */
-export const kContentSecurityPolicy = "default-src 'self'; img-src 'self' blob: data:";
+const kContentSecurityPolicy =
+  "default-src 'self'; img-src 'self' blob: data:; object-src 'none'; base-uri 'none'; " +
+  "form-action 'self'; frame-ancestors 'none'";
 /** @type {Record<string, string>} */
 const kTypes = {
   '.html': 'text/html; charset=utf-8',
