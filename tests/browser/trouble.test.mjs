@@ -64,8 +64,8 @@ test('a lost server is told, and found again without help', async () => {
 });
 
 test('the button of the banner does not wait for the next attempt', async () => {
-  // In a page whose clock stands still no attempt is made by itself.
-  const frozen = await browser.context.newPage();
+  // Where the clock stands still no attempt is made by itself; it stands in all of a browser.
+  const { page: frozen, close } = await openBrowser();
   await frozen.clock.install({ time: 0 });
   await frozen.goto(server.address);
   await frozen.locator('#samples li').first().waitFor();
@@ -78,7 +78,7 @@ test('the button of the banner does not wait for the next attempt', async () => 
   await server.start();
   await frozen.locator('#banner-button').click();
   await frozen.locator('#grid > li').nth(19).waitFor();
-  await frozen.close();
+  await close();
 });
 
 test('the results stay while the server is away', async () => {
