@@ -5,7 +5,6 @@
 // Threads const-safe.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,9 +29,5 @@ class MediaRoots {
 
     std::vector<std::string> roots_;  // real paths
 };
-
-// The path in "file:///a%20b" or "file://localhost/a%20b"; nothing for another scheme or
-// host, a broken escape, or a zero byte.
-[[nodiscard]] std::optional<std::string> path_of_file_uri(std::string_view uri);
 
 }  // namespace haarmony::server
