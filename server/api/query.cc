@@ -76,6 +76,20 @@ Reply answer(const Context& context, Inputs& inputs, std::optional<QuerySource> 
 
 }  // namespace
 
+http::Cost cost_of_query(const http::Request& request) {
+    constexpr std::size_t kShort = 16'384;  // twenty times a signature
+    for (const auto& [name, value] : request.query)
+        if (name == "url") return http::Cost::kCostly;
+    if (request.body.empty()) return http::Cost::kCheap;
+    if (request.body.size() > kShort ||
+        !request.header("Content-Type").starts_with("application/json"))
+        return http::Cost::kCostly;
+    // A backslash could spell any of the names.
+    for (const std::string_view sign : {"\"image\"", "\"strokes\"", "\"url\"", "\\"})
+        if (request.body.find(sign) != std::string::npos) return http::Cost::kCostly;
+    return http::Cost::kCheap;
+}
+
 Reply post_query(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_request(request);
     if (!inputs) return inputs.problem();

@@ -4,8 +4,13 @@
 #include "server/api/context.h"
 #include "server/api/outcome.h"
 #include "server/http/message.h"
+#include "server/http/router.h"
 
 namespace haarmony::server {
+
+// Costly is what decodes, fetches or paints; a search by id or signature is cheap and does
+// not wait behind it. Looks at the text of a short JSON body; in doubt a query is costly.
+[[nodiscard]] http::Cost cost_of_query(const http::Request& request);
 
 [[nodiscard]] Reply post_query(const Context& context, const http::Request& request);
 // The linkable form: everything in the address.

@@ -17,8 +17,14 @@ using http::Cost;
 
 // Costly is what may decode a picture; those wait in a queue of their own.
 constexpr std::array kRoutes{
-    Route{"POST", "/query", Cost::kCostly, Body::kPicture, false, post_query},
-    Route{"GET", "/query", Cost::kCheap, Body::kNone, false, get_query},
+    Route{"POST",
+          "/query",
+          Cost::kCostly,
+          Body::kPicture,
+          false,
+          post_query,
+          cost_of_query},
+    Route{"GET", "/query", Cost::kCheap, Body::kNone, false, get_query, cost_of_query},
     Route{"GET", "/images", Cost::kCheap, Body::kNone, false, list_images},
     Route{"POST", "/images", Cost::kCostly, Body::kPicture, false, post_image},
     Route{"GET", "/images/{id}", Cost::kCheap, Body::kNone, false, get_image},
@@ -54,6 +60,7 @@ void add_routes(const Context& context, http::Router& router) {
         options.cost = route.cost;
         options.body_limit = route.body == Body::kPicture ? context.max_body : 0;
         options.open = route.open;
+        options.cost_of = route.cost_of;
         router.add(route.method,
                    route.pattern,
                    options,

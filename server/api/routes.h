@@ -19,6 +19,7 @@ struct Route {
     Body body;
     bool open;  // needs no key
     Reply (*handler)(const Context&, const http::Request&);
+    http::Cost (*cost_of)(const http::Request&) = nullptr;  // instead of `cost`
 };
 
 [[nodiscard]] std::span<const Route> routes();

@@ -26,6 +26,13 @@ struct RouteOptions {
     Cost cost = Cost::kCheap;
     std::uint64_t body_limit = 0;  // bytes; 0: the route takes no body
     bool open = false;             // needs no key: health, readiness, the static page
+    // Where the cost depends on the request: asked instead of `cost` once the body is there,
+    // on an io thread, so it must be quick; it must not throw.
+    std::function<Cost(const Request&)> cost_of{};
+
+    [[nodiscard]] Cost cost_for(const Request& request) const {
+        return cost_of ? cost_of(request) : cost;
+    }
 };
 
 struct RouteMatch {

@@ -230,9 +230,9 @@ net::awaitable<void> Session::receive(Exchange& exchange) {
             exchange.response = service_.router.dispatch(request, service_.hooks.failed);
             exchange.answered = true;
         } else {
-            exchange.costly = match.options->cost == Cost::kCostly;
             co_await expect_body(parser, match.options->body_limit);
             if (!gone_ && parser.state() == State::kBody) co_await read_body(parser);
+            exchange.costly = match.options->cost_for(request) == Cost::kCostly;
         }
         if (exchange.answered && parser.has_body()) exchange.close = must_linger_ = true;
     }

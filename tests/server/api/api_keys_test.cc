@@ -24,7 +24,9 @@ http::Request request(const std::string& method,
     return request;
 }
 
-int status(const std::string& method, const std::string& path, const http::Headers& headers) {
+int status(const std::string& method,
+           const std::string& path,
+           const http::Headers& headers) {
     const auto problem = keys().admit(request(method, path, headers));
     return problem ? problem->status : 200;
 }
@@ -53,14 +55,15 @@ TEST(ApiKeys, AReadingKeyMayReadAndSearch) {
 }
 
 TEST(ApiKeys, OtherKeysAndNoneAreUnauthorized) {
-    for (const http::Headers& headers : {http::Headers{},
-                                         bearer(""),
-                                         bearer("writer-"),
-                                         bearer("writer-11"),
-                                         bearer("write:writer-1"),
-                                         bearer("WRITER-1"),
-                                         http::Headers{{"Authorization", "writer-1"}},
-                                         http::Headers{{"Authorization", "Basic writer-1"}}})
+    for (const http::Headers& headers :
+         {http::Headers{},
+          bearer(""),
+          bearer("writer-"),
+          bearer("writer-11"),
+          bearer("write:writer-1"),
+          bearer("WRITER-1"),
+          http::Headers{{"Authorization", "writer-1"}},
+          http::Headers{{"Authorization", "Basic writer-1"}}})
         EXPECT_EQ(status("GET", "/images", headers), 401);
     const auto problem = keys().admit(request("GET", "/images", {}));
     ASSERT_TRUE(problem);
@@ -79,7 +82,8 @@ TEST(ApiKeys, AFileWithoutKeysIsNoOpenDoor) {
 }
 
 TEST(ApiKeys, ALineThatIsNoKeyIsNamed) {
-    for (const std::string line : {"two words", "read:", "write:", "tab\there", "\xc3\xa4"}) {
+    for (const std::string line :
+         {"two words", "read:", "write:", "tab\there", "\xc3\xa4"}) {
         const auto refused = ApiKeys::parse("good\n" + line + "\n");
         ASSERT_FALSE(refused) << line;
         EXPECT_NE(refused.error().message.find("line 2"), std::string::npos) << line;

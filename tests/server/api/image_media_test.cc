@@ -25,8 +25,8 @@ class ImageMediaTest : public testing::Test {
     // A file with the scene, and its row as ingest would store it.
     std::string add_file(const std::string& name, unsigned number) {
         schema::write_bytes(folder_.file(name), text_of(jpeg_scene(number)));
-        const auto id = other_->images().add(
-            file_row(number, ingest::file_uri(folder_.file(name))));
+        const auto id =
+            other_->images().add(file_row(number, ingest::file_uri(folder_.file(name))));
         EXPECT_TRUE(id);
         return "/images/" + std::to_string(to_int(id.value())) + "/original";
     }

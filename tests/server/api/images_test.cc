@@ -35,10 +35,11 @@ TEST_F(ImagesTest, EveryFormStoresThePictureAndWhatIsSaidAboutIt) {
     const std::string bytes = text_of(jpeg_scene(1));
     const json metadata{{"a", {{"b", nullptr}}}};
     const std::vector<http::Response> replies{
-        interface_.post("/images?uri=x:1&tags=sea,%20sky%20,sea&metadata=%7B%22a%22:%7B%22b%22:"
-                        "null%7D%7D",
-                        "image/jpeg",
-                        bytes),
+        interface_.post(
+            "/images?uri=x:1&tags=sea,%20sky%20,sea&metadata=%7B%22a%22:%7B%22b%22:"
+            "null%7D%7D",
+            "image/jpeg",
+            bytes),
         interface_.post("/images",
                         std::string(kFormType),
                         form_of({{"uri", "x:1"},
@@ -50,10 +51,9 @@ TEST_F(ImagesTest, EveryFormStoresThePictureAndWhatIsSaidAboutIt) {
                               {"uri", "x:1"},
                               {"tags", {"sky", "sea"}},
                               {"metadata", metadata}}),
-        interface_.post_json("/images?uri=x:1",
-                             {{"image", base64(bytes)},
-                              {"tags", "sea,sky"},
-                              {"metadata", metadata}}),
+        interface_.post_json(
+            "/images?uri=x:1",
+            {{"image", base64(bytes)}, {"tags", "sea,sky"}, {"metadata", metadata}}),
     };
     for (std::size_t i = 0; i < replies.size(); ++i) {
         SCOPED_TRACE(i);
@@ -72,13 +72,15 @@ TEST_F(ImagesTest, EveryFormStoresThePictureAndWhatIsSaidAboutIt) {
         EXPECT_EQ(image["content_hash"], ingest::content_hash(jpeg_scene(1)));
         EXPECT_EQ(image["width"], 96);
         EXPECT_EQ(image["height"], 64);
-        EXPECT_EQ(json_of(interface_.get("/query?id=" + std::to_string(i + 1)))["searched"],
-                  i + 1);
+        EXPECT_EQ(
+            json_of(interface_.get("/query?id=" + std::to_string(i + 1)))["searched"],
+            i + 1);
     }
 }
 
 TEST_F(ImagesTest, NothingNeedsToBeSaidAboutAPicture) {
-    ASSERT_EQ(interface_.post("/images", "image/jpeg", text_of(jpeg_scene(1))).status, 201);
+    ASSERT_EQ(interface_.post("/images", "image/jpeg", text_of(jpeg_scene(1))).status,
+              201);
     const json image = json_of(interface_.get("/images/1"));
     EXPECT_EQ(image["uri"], nullptr);
     EXPECT_EQ(image["tags"], json::array());
@@ -129,9 +131,10 @@ TEST_F(ImagesTest, ListsInPagesByIdAndTags) {
     std::vector<std::int64_t> even;
     for (unsigned number = 1; number <= 7; ++number) {
         const bool is_even = number % 2 == 0;
-        interface_.collection.add(
-            1, {"", is_even ? std::vector<std::string>{"even", "any"}
-                            : std::vector<std::string>{"any"}});
+        interface_.collection.add(1,
+                                  {"",
+                                   is_even ? std::vector<std::string>{"even", "any"}
+                                           : std::vector<std::string>{"any"}});
         all.push_back(number);
         if (is_even) even.push_back(number);
     }
@@ -169,7 +172,8 @@ TEST_F(ImagesTest, DeletedPicturesAreGone) {
     const http::Response deleted = interface_.send("DELETE", "/images/1");
     EXPECT_EQ(deleted.status, 204);
     EXPECT_EQ(body_of(deleted), "");
-    for (const std::string part : {"", "/thumbnail", "/original", "/signature", "/similar"})
+    for (const std::string part :
+         {"", "/thumbnail", "/original", "/signature", "/similar"})
         EXPECT_EQ(refusal_of(interface_.get("/images/1" + part)),
                   (Refusal{404, "not_found", ""}))
             << part;
@@ -183,7 +187,8 @@ TEST_F(ImagesTest, DeletedPicturesAreGone) {
 }
 
 TEST_F(ImagesTest, IdsAreWholeNumbersAboveZero) {
-    for (const std::string id : {"0", "-1", "1x", "x", "1.0", "99999999999999999999", "%201"})
+    for (const std::string id :
+         {"0", "-1", "1x", "x", "1.0", "99999999999999999999", "%201"})
         for (const std::string part : {"", "/thumbnail", "/original", "/signature"}) {
             EXPECT_EQ(refusal_of(interface_.get("/images/" + id + part)),
                       (Refusal{400, "invalid_argument", "id"}))
@@ -231,8 +236,10 @@ TEST_F(ImagesTest, AFailedFileTellsWhy) {
 
 TEST_F(ImagesTest, AddressesThatTakeNoParametersSaySo) {
     interface_.collection.add(1);
-    for (const std::string target :
-         {"/images/1", "/images/1/thumbnail", "/images/1/original", "/images/1/signature"})
+    for (const std::string target : {"/images/1",
+                                     "/images/1/thumbnail",
+                                     "/images/1/original",
+                                     "/images/1/signature"})
         EXPECT_EQ(refusal_of(interface_.get(target + "?size=1")),
                   (Refusal{400, "unknown_parameter", "size"}))
             << target;

@@ -79,7 +79,8 @@ std::string base64(std::string_view bytes) {
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string bits;
     for (const char c : bytes)
-        for (int bit = 7; bit >= 0; --bit) bits.push_back((c >> bit & 1) != 0 ? '1' : '0');
+        for (int bit = 7; bit >= 0; --bit)
+            bits.push_back((c >> bit & 1) != 0 ? '1' : '0');
     while (bits.size() % 6 != 0) bits.push_back('0');
     std::string text;
     for (std::size_t i = 0; i < bits.size(); i += 6)

@@ -81,7 +81,8 @@ TEST_F(QueryRefusalTest, BadOptionsInTheAddress) {
             encoded.replace(at, 2, "=%2B");
         expect_problem(interface_.get("/query?id=1&" + encoded), {400, code, param});
         if (param == "id") continue;
-        expect_problem(interface_.get("/images/1/similar?" + encoded), {400, code, param});
+        expect_problem(interface_.get("/images/1/similar?" + encoded),
+                       {400, code, param});
     }
 }
 
@@ -144,8 +145,10 @@ TEST_F(QueryRefusalTest, BadSources) {
     expect_problem(interface_.get("/query?id=1&signature=x"),
                    {400, "several_sources", "signature"});
     expect_problem(interface_.get("/query?id=x"), {400, "invalid_argument", "id"});
-    expect_problem(interface_.get("/query?strokes=1"), {400, "invalid_argument", "strokes"});
-    expect_problem(interface_.get("/query?image=Zg=="), {400, "invalid_argument", "image"});
+    expect_problem(interface_.get("/query?strokes=1"),
+                   {400, "invalid_argument", "strokes"});
+    expect_problem(interface_.get("/query?image=Zg=="),
+                   {400, "invalid_argument", "image"});
     expect_problem(interface_.post("/query?id=1", "image/jpeg", text_of(jpeg_scene(1))),
                    {400, "several_sources", "id"});
     expect_problem(interface_.post("/query", "image/jpeg", ""), {400, "no_source", ""});
@@ -178,8 +181,10 @@ TEST_F(QueryRefusalTest, BytesThatAreNoPicture) {
 }
 
 TEST_F(QueryRefusalTest, BodiesThatAreNotRead) {
-    for (const std::string type :
-         {"", "text/plain", "application/x-www-form-urlencoded", "application/octet-stream"})
+    for (const std::string type : {"",
+                                   "text/plain",
+                                   "application/x-www-form-urlencoded",
+                                   "application/octet-stream"})
         expect_problem(interface_.post("/query", type, "body"),
                        {415, "unsupported_media_type", "Content-Type"});
     expect_problem(interface_.post("/query", "application/json", "{"),
@@ -206,16 +211,17 @@ TEST_F(QueryRefusalTest, BadForms) {
     expect_problem(
         interface_.post("/query", type, form_of({{"file", jpeg}, {"file", jpeg}})),
         {400, "repeated_parameter", "file"});
-    expect_problem(
-        interface_.post("/query?limit=3", type, form_of({{"file", jpeg}, {"limit", "3"}})),
-        {400, "repeated_parameter", "limit"});
+    expect_problem(interface_.post(
+                       "/query?limit=3", type, form_of({{"file", jpeg}, {"limit", "3"}})),
+                   {400, "repeated_parameter", "limit"});
     expect_problem(
         interface_.post("/query", type, form_of({{"file", jpeg}, {"limit", "many"}})),
         {400, "invalid_argument", "limit"});
     expect_problem(interface_.post("/query", type, form_of({{"file", jpeg}, {"x", "1"}})),
                    {400, "unknown_parameter", "x"});
-    expect_problem(interface_.post("/query", type, form_of({{"file", jpeg}, {"id", "1"}})),
-                   {400, "several_sources", "id"});
+    expect_problem(
+        interface_.post("/query", type, form_of({{"file", jpeg}, {"id", "1"}})),
+        {400, "several_sources", "id"});
     expect_problem(
         interface_.post("/query", type, form_of({{"file", jpeg}, {"seq", "\xff"}})),
         {400, "invalid_argument", "seq"});

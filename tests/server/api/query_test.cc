@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/api/query.h"
 #include "tests/server/api/interface.h"
 
 namespace haarmony::server {
@@ -140,8 +141,8 @@ TEST_F(QueryTest, TransparencyCountsOnlyWithMaskNone) {
         for (int x = 0; x < 64; ++x) picture.at(x, y, 3) = y < 20 ? 255 : 0;
     const std::string png = text_of(png_of(picture.view()));
     const auto signature = [&](const std::string& query) {
-        return json_of(interface_.post("/query" + query, "image/png", png))["query"]
-                                                                          ["signature"];
+        return json_of(
+            interface_.post("/query" + query, "image/png", png))["query"]["signature"];
     };
     EXPECT_EQ(signature(""), signature("?mask=alpha"));
     EXPECT_NE(signature(""), signature("?mask=none"));
@@ -181,6 +182,35 @@ TEST_F(QueryTest, OptionsThatSayNothingNewAreTaken) {
                               {"kind", "image"}})
                   .status,
               200);
+}
+
+TEST_F(QueryTest, OnlyWhatMayDecodeIsCostly) {
+    const auto cost = [](const std::string& parameter,
+                         const std::string& type,
+                         const std::string& body) {
+        http::Request request;
+        if (!parameter.empty()) request.query = {{parameter, "1"}};
+        request.headers["Content-Type"] = type;
+        request.body = body;
+        return cost_of_query(request);
+    };
+    const std::string json_type = "application/json; charset=utf-8";
+    const std::string signature =
+        json_of(interface_.get("/query?id=1"))["query"]["signature"];
+    EXPECT_EQ(cost("id", "", ""), http::Cost::kCheap);
+    EXPECT_EQ(cost("", json_type, R"({"id": 1, "limit": 3})"), http::Cost::kCheap);
+    EXPECT_EQ(cost("", json_type, json{{"signature", signature}}.dump()),
+              http::Cost::kCheap);
+    EXPECT_EQ(cost("", json_type, json_of(interface_.get("/images/1/signature")).dump()),
+              http::Cost::kCheap);
+    EXPECT_EQ(cost("url", "", ""), http::Cost::kCostly);
+    EXPECT_EQ(cost("", "image/png", "x"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", std::string(kFormType), "x"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", json_type, R"({"image": ""})"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", json_type, R"({"strokes": {}})"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", json_type, R"({"url": ""})"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", json_type, R"({"ima\u0067e": ""})"), http::Cost::kCostly);
+    EXPECT_EQ(cost("", json_type, std::string(20'000, ' ')), http::Cost::kCostly);
 }
 
 TEST_F(QueryTest, AnEmptyCollectionIsAnEmptyAnswer) {

@@ -13,7 +13,8 @@ namespace {
 using nlohmann::json;
 
 json drawing() {
-    return json::parse(R"({"width": 400, "height": 300, "background": "#0a0B0c", "items": [
+    return json::parse(
+        R"({"width": 400, "height": 300, "background": "#0a0B0c", "items": [
         {"points": [[1, 2.5], [-3, 4e2]], "width": 7, "color": "#ff8000"},
         {"points": [[0, 0], [9, 9], [0, 9]], "width": [1, 2, 3], "color": "#000000"},
         {"points": [[0, 0], [9, 9], [0, 9]], "fill": true, "color": "#ffffff"}]})");

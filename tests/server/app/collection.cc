@@ -89,8 +89,9 @@ schema::NewImage file_row(unsigned number, const std::string& uri) {
     return row;
 }
 
-Collection::Collection() { must(schema::Database::open(
-    path(), schema::Database::Mode::kReadWriteCreate)); }
+Collection::Collection() {
+    must(schema::Database::open(path(), schema::Database::Mode::kReadWriteCreate));
+}
 
 void Collection::open(int index_m) {
     ImageServiceOptions options;
@@ -107,8 +108,8 @@ ImageId Collection::add(unsigned number, const ImageAttributes& attributes) {
 }
 
 std::unique_ptr<Connection> beside(const Collection& collection) {
-    return must(Connection::open(collection.path(),
-                                 schema::Database::Mode::kReadWriteCreate));
+    return must(
+        Connection::open(collection.path(), schema::Database::Mode::kReadWriteCreate));
 }
 
 }  // namespace haarmony::server

@@ -28,7 +28,9 @@ class FixedSnapshot final : public image::IndexSnapshot {
     }
     image::IndexStats stats() const override { return {}; }
 
-    static image::Score score_of(std::int64_t id) { return -900'000'000 + id * 30'000'000; }
+    static image::Score score_of(std::int64_t id) {
+        return -900'000'000 + id * 30'000'000;
+    }
     mutable int searches = 0;
 
   private:
@@ -59,7 +61,8 @@ class ImageSearchTest : public testing::Test {
     }
 
     // What should come: the snapshot's order without those that are gone.
-    static std::vector<std::int64_t> expected(const std::set<std::int64_t>& gone, int limit) {
+    static std::vector<std::int64_t> expected(const std::set<std::int64_t>& gone,
+                                              int limit) {
         std::vector<std::int64_t> ids;
         for (std::int64_t id = 1; id <= kRows; ++id)
             if (!gone.contains(id) && static_cast<int>(ids.size()) < limit)
@@ -69,7 +72,8 @@ class ImageSearchTest : public testing::Test {
 
     static std::vector<std::int64_t> ids_of(const Found& found) {
         std::vector<std::int64_t> ids;
-        for (const FoundImage& image : found.images) ids.push_back(to_int(image.image.id));
+        for (const FoundImage& image : found.images)
+            ids.push_back(to_int(image.image.id));
         return ids;
     }
 
@@ -97,7 +101,11 @@ TEST_F(ImageSearchTest, TellsRowsAndDistancesOfTheMatches) {
 
 TEST_F(ImageSearchTest, RowsThatVanishedAreReplacedByTheNextBest) {
     const std::vector<std::set<std::int64_t>> cases{
-        {1}, {5}, {1, 2, 3}, {2, 4, 6, 8, 10, 12}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}};
+        {1},
+        {5},
+        {1, 2, 3},
+        {2, 4, 6, 8, 10, 12},
+        {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}};
     std::set<std::int64_t> gone;
     for (const auto& more : cases) {
         std::set<std::int64_t> fresh;

@@ -152,8 +152,8 @@ TEST_F(ImageServiceTest, ADamagedSignatureIsUndecodableAndTheRestIsFound) {
     const auto refused = service().signature(broken);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kUndecodable);
-    EXPECT_TRUE(becomes_true(
-        [&] { return found(signature(2)) == std::vector<ImageId>{sound}; }));
+    EXPECT_TRUE(
+        becomes_true([&] { return found(signature(2)) == std::vector<ImageId>{sound}; }));
     EXPECT_TRUE(becomes_true([&] { return service().status().value().damaged == 1; }));
 }
 
@@ -164,8 +164,8 @@ TEST_F(ImageServiceTest, CountsWhatThereIs) {
     const auto other = beside(collection_);
     ASSERT_TRUE(other->images().mark_failed("file:///bad.jpg", {}, "broken"));
     const ImageId file = other->images().add(file_row(3, "file:///c.jpg")).value();
-    ASSERT_TRUE(becomes_true(
-        [&] { return service().status().value().index.images == 3; }));
+    ASSERT_TRUE(
+        becomes_true([&] { return service().status().value().index.images == 3; }));
     ASSERT_TRUE(service().remove(id));
     ASSERT_TRUE(service().remove(file));
     const ServiceStatus status = service().status().value();
@@ -219,7 +219,8 @@ TEST_F(ImageServiceTest, SearchesStayRightWhileOthersAddAndRemove) {
                 std::vector<ImageId> seen;
                 if (answer)
                     for (const FoundImage& match : answer->found.images)
-                        if (std::count(staying.begin(), staying.end(), match.image.id) != 0)
+                        if (std::count(staying.begin(), staying.end(), match.image.id) !=
+                            0)
                             seen.push_back(match.image.id);
                 if (seen != order) ++wrong;
                 ++searches;

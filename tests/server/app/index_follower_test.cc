@@ -54,7 +54,8 @@ class IndexFollowerTest : public testing::Test {
                               *image::built_in_profile("painted"),
                               60);
         std::set<ImageId> ids;
-        for (const image::Match& match : follower_->snapshot()->search(query, 1000).matches)
+        for (const image::Match& match :
+             follower_->snapshot()->search(query, 1000).matches)
             ids.insert(match.id);
         return ids;
     }
@@ -87,14 +88,15 @@ TEST_F(IndexFollowerTest, SeesWhatAnotherConnectionAddsChangesAndRemoves) {
 
     // The row keeps its id and gets the signature of another picture.
     ASSERT_TRUE(other_->images().update(first, file_row(9, "file:///p/1")));
-    const image::Signature changed = image::make_signature(
-        image::scene(96, 64, 9).view());
+    const image::Signature changed =
+        image::make_signature(image::scene(96, 64, 9).view());
     const image::Query query =
         image::make_query(changed, *image::built_in_profile("painted"), 60);
     EXPECT_TRUE(becomes_true([&] {
         const auto best = follower_->snapshot()->search(query, 1).matches;
         // Through a JPEG: near, not equal. The former picture is far.
-        return best.front().id == first && image::similarity(query, best.front().score) > 0.5;
+        return best.front().id == first &&
+               image::similarity(query, best.front().score) > 0.5;
     }));
 
     ASSERT_TRUE(other_->images().remove(first));
@@ -116,8 +118,8 @@ TEST_F(IndexFollowerTest, FollowsMoreChangesThanOneBatchHolds) {
         }
         return {};
     }));
-    EXPECT_TRUE(becomes_true(
-        [&] { return follower_->snapshot()->stats().images == kMany; }));
+    EXPECT_TRUE(
+        becomes_true([&] { return follower_->snapshot()->stats().images == kMany; }));
 }
 
 TEST_F(IndexFollowerTest, LoadsMoreThanOneBatchHolds) {

@@ -35,7 +35,7 @@ TEST(LendingPool, AMovedLoanComesBackOnce) {
     const auto again = pool.lend();
     const auto other = pool.lend();
     ASSERT_TRUE(again && other);
-    EXPECT_NE(&**again.value(), &**other.value());
+    EXPECT_NE(&*again.value(), &*other.value());
     EXPECT_EQ(made, 2);
 }
 
@@ -51,7 +51,7 @@ TEST(LendingPool, GivesTheFactorysErrorAndTriesAgain) {
     broken = false;
     const auto lent = pool.lend();
     ASSERT_TRUE(lent);
-    EXPECT_EQ(**lent.value(), 7);
+    EXPECT_EQ(*lent.value(), 7);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ class MediaRootsTest : public testing::Test {
         schema::write_bytes(folder_.file("pictures/deep/c.jpg"), "c");
         schema::write_bytes(folder_.file("pictures-not/secret.jpg"), "s");
         schema::write_bytes(folder_.file("secret.jpg"), "s");
-        fs::create_symlink(folder_.file("secret.jpg"), folder_.file("pictures/escape.jpg"));
+        fs::create_symlink(folder_.file("secret.jpg"),
+                           folder_.file("pictures/escape.jpg"));
         fs::create_symlink(folder_.path(), folder_.file("pictures/up"));
         fs::create_symlink("a b.jpg", folder_.file("pictures/inside.jpg"));
         real_ = fs::canonical(folder_.path());

@@ -21,6 +21,18 @@ class Overloaded {
     explicit Overloaded(int queue) {
         server.options.costly_threads = 1;
         server.options.costly_queue = queue;
+        server.router.add(
+            "POST",
+            "/either",
+            {.cost = Cost::kCostly,
+             .body_limit = 100,
+             .cost_of =
+                 [](const Request& request) {
+                     return request.body == "cheap" ? Cost::kCheap : Cost::kCostly;
+                 }},
+            [](const Request& request) {
+                return Response{.status = 200, .headers = {}, .body = request.body};
+            });
         server.start();
         holder = std::make_unique<HttpClient>(server.port());
         holder->send(kGate);
@@ -54,6 +66,21 @@ TEST(ListenerOverload, FullQueueIs503WhileCheapRequestsPass) {
     EXPECT_EQ(second.receive().body, "through");
     EXPECT_EQ(third.receive().body, "through");
     EXPECT_EQ(fourth.get("/gate").body, "through");
+}
+
+// The body decides: the same route is answered while its costly requests wait.
+TEST(ListenerOverload, RequestThatIsCheapInFactPassesTheCostlyOnesOfItsRoute) {
+    Overloaded overloaded(1);
+    TestServer& server = overloaded.server;
+    HttpClient waiting(server.port());
+    waiting.send("POST /either HTTP/1.1\r\nHost: h\r\nContent-Length: 6\r\n\r\ncostly");
+    ASSERT_TRUE(overloaded.queued(1));
+    HttpClient passing(server.port());
+    passing.send("POST /either HTTP/1.1\r\nHost: h\r\nContent-Length: 5\r\n\r\ncheap");
+    EXPECT_EQ(passing.receive().body, "cheap");
+    EXPECT_TRUE(overloaded.queued(1));
+    server.gate.open();
+    EXPECT_EQ(waiting.receive().body, "costly");
 }
 
 TEST(ListenerOverload, ClientThatLeavesTakesItsQueuedRequestWithIt) {

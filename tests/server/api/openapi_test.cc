@@ -1,0 +1,253 @@
+// schema/openapi.yaml says what is true: its routes are the router's, its parameters are
+// read, and what the handlers answer is what it describes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/api/routes.h"
+#include "server/embedded.h"
+#include "server/version.h"
+#include "tests/server/api/interface.h"
+#include "tests/server/api/json_schema.h"
+
+namespace haarmony::server {
+namespace {
+
+using nlohmann::json;
+
+const json& document() {
+    static const json parsed = json::parse(embedded_openapi().front().content);
+    return parsed;
+}
+
+// Follows one "$ref", if that is what the node is.
+const json& resolved(const json& node) {
+    if (!node.contains("$ref")) return node;
+    return document().at(json::json_pointer(node["$ref"].get<std::string>().substr(1)));
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(c));
+    return text;
+}
+
+// "GET /images" as the document has it, and the operation.
+const json& operation(const Route& route) {
+    return document()["paths"]
+        .at(std::string(route.pattern))
+        .at(lower(std::string(route.method)));
+}
+
+// The first violation of what the document says about this status of this route.
+std::optional<std::string> violation_of(const std::string& method,
+                                        const std::string& pattern,
+                                        const http::Response& response) {
+    const json& responses =
+        document()["paths"].at(pattern).at(lower(method)).at("responses");
+    const std::string status = std::to_string(response.status);
+    if (!responses.contains(status)) return "status " + status + " is not described";
+    const json& described = resolved(responses[status]);
+    const std::string type = header_of(response, "Content-Type");
+    if (!described.contains("content"))
+        return body_of(response).empty()
+                   ? std::nullopt
+                   : std::optional<std::string>("a body is not described");
+    const json& content = described["content"];
+    if (!content.contains(type)) return "type " + type + " is not described";
+    if (!content[type].contains("schema")) return {};
+    return violation(json_of(response), content[type]["schema"], document());
+}
+
+TEST(Openapi, ListsExactlyTheRoutesOfTheRouter) {
+    std::set<std::string> described;
+    for (const auto& [path, item] : document()["paths"].items())
+        for (const auto& [member, value] : item.items())
+            if (member != "parameters") described.insert(member + " " + path);
+    std::set<std::string> routed;
+    for (const Route& route : routes())
+        routed.insert(lower(std::string(route.method)) + " " +
+                      std::string(route.pattern));
+    EXPECT_EQ(described, routed);
+}
+
+TEST(Openapi, EveryReferenceLeadsSomewhereAndEveryComponentIsUsed) {
+    std::set<std::string> used;
+    const auto walk = [&](const auto& self, const json& node) -> void {
+        if (node.is_object() && node.contains("$ref")) {
+            const std::string reference = node["$ref"];
+            EXPECT_TRUE(document().contains(json::json_pointer(reference.substr(1))))
+                << reference;
+            used.insert(reference);
+        }
+        if (node.is_structured())
+            for (const json& child : node) self(self, child);
+    };
+    walk(walk, document());
+    for (const char* kind :
+         {"parameters", "requestBodies", "responses", "schemas", "headers"})
+        for (const auto& [name, component] : document()["components"][kind].items())
+            EXPECT_TRUE(used.contains("#/components/" + std::string(kind) + "/" + name))
+                << kind << "/" << name;
+}
+
+TEST(Openapi, SaysWhichVersionItDescribes) {
+    EXPECT_EQ(document()["openapi"], "3.1.0");
+    EXPECT_EQ(document()["info"]["version"], std::string(kVersion));
+}
+
+TEST(Openapi, OpenRoutesNeedNoKey) {
+    for (const Route& route : routes()) {
+        const json security = operation(route).value("security", json());
+        EXPECT_EQ(route.open, security == json::array({json::object()})) << route.pattern;
+    }
+}
+
+TEST(Openapi, EveryDescribedParameterIsKnownToItsHandler) {
+    Interface interface;
+    interface.collection.add(1);
+    for (const Route& route : routes()) {
+        if (!operation(route).contains("parameters")) continue;
+        for (const json& reference : operation(route)["parameters"]) {
+            const json& parameter = resolved(reference);
+            std::string target(route.pattern);
+            if (const auto at = target.find("{id}"); at != std::string::npos)
+                target.replace(at, 4, "1");
+            const http::Response response = interface.send(
+                std::string(route.method),
+                target + "?" + parameter["name"].get<std::string>() + "=1");
+            EXPECT_NE(refusal_of(response).code, "unknown_parameter")
+                << route.method << " " << target << " " << parameter["name"];
+        }
+    }
+}
+
+TEST(Openapi, RepliesAreAsDescribed) {
+    schema::ScratchFolder media;
+    Interface interface({media.path()});
+    const std::string bytes = text_of(jpeg_scene(1));
+    const auto check = [&](const std::string& method,
+                           const std::string& pattern,
+                           int status,
+                           const http::Response& response) {
+        EXPECT_EQ(response.status, status)
+            << method << " " << pattern << body_of(response);
+        const auto found = violation_of(method, pattern, response);
+        EXPECT_FALSE(found) << method << " " << pattern << ": " << *found << "\n"
+                            << body_of(response);
+    };
+    check("POST", "/images", 201, interface.post("/images?tags=a", "image/jpeg", bytes));
+    check("POST", "/images", 201, interface.post("/images?uri=x:y", "image/jpeg", bytes));
+    check("POST", "/images", 400, interface.post("/images", "image/jpeg", ""));
+    check("POST", "/images", 415, interface.post("/images", "text/plain", "x"));
+    check("POST",
+          "/images",
+          422,
+          interface.post("/images", "image/jpeg", bytes.substr(0, 99)));
+    check("GET", "/images", 200, interface.get("/images?limit=1"));
+    check("GET", "/images", 200, interface.get("/images"));
+    check("GET", "/images", 400, interface.get("/images?limit=0"));
+    check("GET", "/images/{id}", 200, interface.get("/images/1"));
+    check("GET", "/images/{id}", 404, interface.get("/images/77"));
+    check("GET", "/images/{id}", 400, interface.get("/images/x"));
+    check("GET", "/images/{id}/signature", 200, interface.get("/images/1/signature"));
+    check("GET", "/images/{id}/thumbnail", 200, interface.get("/images/1/thumbnail"));
+    check("GET", "/images/{id}/original", 404, interface.get("/images/1/original"));
+    check("GET", "/images/{id}/similar", 200, interface.get("/images/1/similar?seq=1"));
+    check("GET", "/query", 200, interface.get("/query?id=1&seq=x"));
+    check("GET", "/query", 400, interface.get("/query"));
+    check("GET", "/query", 403, interface.get("/query?url=http://example.org"));
+    check("GET", "/query", 404, interface.get("/query?id=77"));
+    check("POST", "/query", 200, interface.post("/query", "image/jpeg", bytes));
+    check("POST", "/query", 415, interface.post("/query", "image/jpeg", "text"));
+    check("GET", "/healthz", 200, interface.get("/healthz"));
+    check("GET", "/readyz", 200, interface.get("/readyz"));
+    check("GET", "/status", 200, interface.get("/status"));
+    check("GET", "/version", 200, interface.get("/version"));
+    check("GET", "/openapi.json", 200, interface.get("/openapi.json"));
+    check("DELETE", "/images/{id}", 204, interface.send("DELETE", "/images/1"));
+    check("DELETE", "/images/{id}", 404, interface.send("DELETE", "/images/1"));
+
+    const auto other = beside(interface.collection);
+    ASSERT_TRUE(other->images().mark_failed("file:///bad.jpg", {}, "truncated"));
+    check("GET", "/images/{id}", 200, interface.get("/images/3"));
+}
+
+TEST(Openapi, RequestsThatAreTakenAreDescribed) {
+    Interface interface;
+    const std::string image = base64(text_of(jpeg_scene(1)));
+    const auto request_schema = [](const std::string& name) {
+        return document()["components"]["schemas"][name];
+    };
+    const json upload{{"image", image}, {"tags", {"a"}}, {"metadata", json::object()}};
+    EXPECT_EQ(interface.post_json("/images", upload).status, 201);
+    EXPECT_EQ(violation(upload, request_schema("ImageRequest"), document()),
+              std::nullopt);
+    const std::vector<json> queries{
+        {{"image", image}, {"limit", 5}, {"seq", 3}, {"min_similarity", 0.5}},
+        {{"id", 1}, {"m", 12}, {"mask", "none"}, {"explain", false}},
+        {{"signature", json_of(interface.get("/images/1/signature"))}},
+        {{"strokes",
+          {{"width", 9},
+           {"height", 9},
+           {"background", nullptr},
+           {"items",
+            {{{"points", {{1, 2}, {3, 4}}},
+              {"width", {1, 2.5}},
+              {"color", "#aBcdef"}}}}}}},
+    };
+    for (const json& query : queries) {
+        EXPECT_EQ(interface.post_json("/query", query).status, 200) << query;
+        EXPECT_EQ(violation(query, request_schema("QueryRequest"), document()),
+                  std::nullopt)
+            << query;
+    }
+}
+
+TEST(Openapi, IsServedWithATag) {
+    Interface interface;
+    const http::Response response = interface.get("/openapi.json");
+    EXPECT_EQ(json_of(response), document());
+    const std::string etag = header_of(response, "ETag");
+    EXPECT_EQ(interface.get("/openapi.json", {{"If-None-Match", etag}}).status, 304);
+    EXPECT_EQ(refusal_of(interface.get("/openapi.json?v=2")),
+              (Refusal{400, "unknown_parameter", "v"}));
+}
+
+// The validator has to see what is wrong, or the tests above could not fail.
+TEST(JsonSchema, SeesEveryKindOfViolation) {
+    const json schema = json::parse(R"({"type": "object", "required": ["n"],
+        "additionalProperties": false, "properties": {
+            "n": {"type": "integer", "minimum": 1, "maximum": 3},
+            "s": {"type": ["string", "null"], "minLength": 2, "maxLength": 3, "pattern": "^a"},
+            "l": {"type": "array", "minItems": 1, "maxItems": 2, "items": {"enum": [1, "x"]}},
+            "o": {"oneOf": [{"type": "number"}, {"type": "integer"}, {"type": "string"}]},
+            "r": {"$ref": "#/word"}}})");
+    const json references{{"word", {{"type", "boolean"}}}};
+    const auto good =
+        json::parse(R"({"n": 1, "s": null, "l": [1, "x"], "o": 1.5, "r": true})");
+    EXPECT_EQ(violation(good, schema, references), std::nullopt);
+    for (const char* bad : {"[]",
+                            "{}",
+                            R"({"n": 0})",
+                            R"({"n": 4})",
+                            R"({"n": 1.5})",
+                            R"({"n": 1, "m": 1})",
+                            R"({"n": 1, "s": 7})",
+                            R"({"n": 1, "s": "a"})",
+                            R"({"n": 1, "s": "aaaa"})",
+                            R"({"n": 1, "s": "baa"})",
+                            R"({"n": 1, "l": []})",
+                            R"({"n": 1, "l": [1, 1, 1]})",
+                            R"({"n": 1, "l": [2]})",
+                            R"({"n": 1, "o": 1})",
+                            R"({"n": 1, "o": null})",
+                            R"({"n": 1, "r": 1})"})
+        EXPECT_NE(violation(json::parse(bad), schema, references), std::nullopt) << bad;
+    EXPECT_THROW((void)violation(1, {{"multipleOf", 2}}, references), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace haarmony::server
