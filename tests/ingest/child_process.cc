@@ -53,21 +53,24 @@ FullPipe full_pipe() {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
                            const ChildOptions& options) {
-    int child_end = -1;
+    int out = -1;
+    int err = -1;
     if (options.terminal) {
         const winsize size{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
-        if (::openpty(&output_, &child_end, nullptr, nullptr, &size) != 0) std::abort();
+        if (::openpty(&our_end_, &out, nullptr, nullptr, &size) != 0) std::abort();
+        err = out;
+    } else {
+        out = options.closed_output ? pipe_without_reader()
+                                    : open_to_write(folder_ / "out");
+        if (options.full_errors) {
+            const FullPipe pipe = full_pipe();
+            our_end_ = pipe.read_end;
+            err = pipe.write_end;
+            filled_ = pipe.bytes;
+        } else {
+            err = open_to_write(folder_ / "err");
+        }
     }
-    if (options.full_output) {
-        const FullPipe pipe = full_pipe();
-        output_ = pipe.read_end;
-        child_end = pipe.write_end;
-        filled_ = pipe.bytes;
-    }
-    const int out = child_end >= 0          ? child_end
-                    : options.closed_output ? pipe_without_reader()
-                                            : open_to_write(folder_ / "out");
-    const int err = options.terminal ? child_end : open_to_write(folder_ / "err");
     std::vector<char*> argv;
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
@@ -99,19 +102,19 @@ ChildProcess::~ChildProcess() {
         signal(SIGKILL);
         (void)wait();
     }
-    if (output_ >= 0) ::close(output_);
+    if (our_end_ >= 0) ::close(our_end_);
 }
 
 void ChildProcess::signal(int number) const { ::kill(process_, number); }
 
 int ChildProcess::wait() {
     if (status_) return *status_;
-    if (output_ >= 0) {
+    if (our_end_ >= 0) {
         // It holds little: it is read until the child has closed its end.
         std::array<char, 4096> bytes{};
         for (ssize_t count = 0;
-             (count = ::read(output_, bytes.data(), bytes.size())) > 0;) {
-            output_text_.append(bytes.data(), static_cast<std::size_t>(count));
+             (count = ::read(our_end_, bytes.data(), bytes.size())) > 0;) {
+            text_.append(bytes.data(), static_cast<std::size_t>(count));
         }
     }
     int status = 0;
@@ -121,11 +124,15 @@ int ChildProcess::wait() {
 }
 
 std::string ChildProcess::out() const {
-    return output_ >= 0 ? output_text_.substr(std::min(filled_, output_text_.size()))
-                        : content_of(folder_ / "out");
+    const bool terminal = our_end_ >= 0 && filled_ == 0;
+    return terminal ? text_ : content_of(folder_ / "out");
 }
 
-std::string ChildProcess::err() const { return content_of(folder_ / "err"); }
+std::string ChildProcess::err() const {
+    const bool pipe = filled_ > 0;
+    return pipe ? text_.substr(std::min(filled_, text_.size()))
+                : content_of(folder_ / "err");
+}
 
 Finished run_to_end(const std::vector<std::string>& arguments,
                     const ChildOptions& options) {

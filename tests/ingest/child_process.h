@@ -15,7 +15,8 @@ namespace haarmony::ingest {
 
 struct ChildOptions {
     bool terminal = false;            // stdout and stderr are one terminal of 80 columns
-    bool closed_output = false;       // nobody reads stdout
+    bool closed_output = false;       // nobody reads stdout, and nobody can
+    bool full_errors = false;         // nobody reads stderr before wait(): writing waits
     std::int64_t max_file_size = -1;  // bytes it may write to one file; -1: any number
     std::string working_folder = {};  // empty: the test's own
 };
@@ -40,9 +41,9 @@ class ChildProcess {
     const ScratchFolder folder_;
     pid_t process_ = -1;
     std::optional<int> status_;
-    int output_ = -1;  // our end of a terminal or of a full pipe
+    int our_end_ = -1;  // of a terminal or of a full pipe
     std::size_t filled_ = 0;
-    std::string output_text_;
+    std::string text_;  // read from there
 };
 
 struct Finished {

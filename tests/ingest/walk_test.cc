@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/fsuid.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -333,10 +334,17 @@ class DeepTree {
     std::string folder_;
 };
 
-TEST(Walk, DeepTreesNeedNoStackAndNoManyDescriptors) {
+TEST(Walk, DeepTreesNeedNoMoreDescriptorsThanFlatOnes) {
     const ScratchFolder folder;
-    const DeepTree tree(folder, 1100, "d");
-    EXPECT_THAT(walk_all({folder.path()}).files, ElementsAre(tree.file()));
+    const DeepTree tree(folder, 300, "d");
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit few{64, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+    const Walked walked = walk_all({folder.path()});
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_THAT(walked.files, ElementsAre(tree.file()));
+    EXPECT_THAT(walked.failures, IsEmpty());
 }
 
 TEST(Walk, PathsMayBeLongerThanTheKernelTakesInOnePiece) {
