@@ -133,6 +133,13 @@ TEST(Decode, HeifAndAvifAlphaIsStraight) {
     }
 }
 
+TEST(Decode, Jpeg2000AlphaIsStraight) {
+    const Raster picture = sample_picture(64, 48, 4);
+    const Raster got = decoded(write_with_oiio(picture, {.extension = "jp2"}));
+    ASSERT_EQ(got.channels, 4);
+    EXPECT_LE(mean_difference(got, picture), 5);
+}
+
 TEST(Decode, GreyWithAlphaBecomesColourWithAlpha) {
     Raster pair(5, 4, 2);
     for (std::size_t i = 0; i < pair.pixels.size(); ++i) {
