@@ -1,6 +1,7 @@
 #include "ingest/shrink.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <vector>
@@ -59,20 +60,28 @@ void add_row(const ImageView& picture, int y, float weight, std::vector<float>& 
     }
 }
 
+// The ends of a cover by their parts, what lies between in full: no test inside the loops,
+// and the number of channels known to the compiler.
+template <int kDepth>
 void average_columns(const std::vector<float>& sums,
                      const std::vector<Cover>& columns,
                      float scale,
-                     int channels,
                      std::uint8_t* out) {
     for (const Cover& cover : columns) {
-        for (int c = 0; c < channels; ++c) {
-            const float* sample =
-                sums.data() + static_cast<std::size_t>(cover.begin) * channels + c;
-            float sum = 0;
-            for (int x = cover.begin; x < cover.end; ++x, sample += channels) {
-                sum += weight(cover, x) * *sample;
-            }
-            *out++ = static_cast<std::uint8_t>(std::min(255.0f, sum * scale + 0.5f));
+        const float* sample =
+            sums.data() + static_cast<std::size_t>(cover.begin) * kDepth;
+        std::array<float, kDepth> sum{};
+        for (int c = 0; c < kDepth; ++c) sum[c] = cover.first * sample[c];
+        for (int x = cover.begin + 1; x < cover.end - 1; ++x) {
+            sample += kDepth;
+            for (int c = 0; c < kDepth; ++c) sum[c] += sample[c];
+        }
+        if (cover.end - cover.begin > 1) {
+            sample += kDepth;
+            for (int c = 0; c < kDepth; ++c) sum[c] += cover.last * sample[c];
+        }
+        for (int c = 0; c < kDepth; ++c) {
+            *out++ = static_cast<std::uint8_t>(std::min(255.0f, sum[c] * scale + 0.5f));
         }
     }
 }
@@ -95,7 +104,11 @@ Raster shrink(const ImageView& picture, int width, int height) {
         for (int source = cover.begin; source < cover.end; ++source) {
             add_row(picture, source, weight(cover, source), sums);
         }
-        average_columns(sums, columns, scale, small.channels, small.row(y));
+        if (small.channels == 1) {
+            average_columns<1>(sums, columns, scale, small.row(y));
+        } else {
+            average_columns<3>(sums, columns, scale, small.row(y));
+        }
     }
     return small;
 }
