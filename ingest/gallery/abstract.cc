@@ -19,10 +19,11 @@ struct Studio {
         return oklch(lightness, chroma, random.pick(std::span<const double>(hues)));
     }
     [[nodiscard]] Color vivid() {
-        return tone(random.between(0.5, 0.82), random.between(0.14, 0.23));
+        const double lightness = random.between(0.5, 0.82);
+        return tone(lightness, random.between(0.14, 0.23));
     }
     [[nodiscard]] Color paper() {
-        return oklch(random.between(0.92, 0.97), random.between(0.01, 0.05), hues[0]);
+        return oklch({random.between(0.92, 0.97), random.between(0.01, 0.05), hues[0]});
     }
 };
 
@@ -188,8 +189,8 @@ Label improvisation(Studio& s) {
     const Color ink{0.015, 0.015, 0.02};
     for (int i = 0; i < 9; ++i) {
         const Point a = spot();
-        const Point b =
-            a + turned({s.random.between(0.2, 0.7), 0}, s.random.between(0, kTurn));
+        const double reach = s.random.between(0.2, 0.7);
+        const Point b = a + turned({reach, 0}, s.random.between(0, kTurn));
         const Point bend =
             (a + b) * 0.5 + Point{s.random.bell() * 0.08, s.random.bell() * 0.08};
         const Point way[] = {a, bend, b};

@@ -82,10 +82,11 @@ void rings(Canvas& canvas,
         for (int i = 0; i < petals; ++i) {
             const double angle =
                 start + kTurn * (i + 0.5 * layer) / petals + random.bell() * 0.02;
+            const double reach = size * random.between(0.93, 1.05);
             paint_petal(canvas,
                         centre,
                         angle,
-                        size * random.between(0.93, 1.05),
+                        reach,
                         breadth,
                         outline,
                         colors.inner,
@@ -241,8 +242,8 @@ void paint_blossom(Canvas& canvas,
                             colors.outer,
                             0.8);
             for (int i = 0; i < 60; ++i) {
-                const Point p = centre + turned({0, -radius * random.between(0.14, 0.3)},
-                                                random.between(0, kTurn));
+                const double reach = radius * random.between(0.14, 0.3);
+                const Point p = centre + turned({0, -reach}, random.between(0, kTurn));
                 canvas.line(centre, p, radius * 0.006, {0.03, 0.02, 0.04});
                 canvas.disc(p, radius * 0.02, {0.04, 0.03, 0.05});
             }

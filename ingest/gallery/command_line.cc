@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ingest/gallery/export.h"
+#include "ingest/gallery/gallery.h"
 
 namespace haarmony::gallery {
 namespace {
@@ -29,11 +30,15 @@ int run(std::span<const std::string> arguments, std::ostream& out, std::ostream&
     app.add_option("--count", options.count, "How many pictures")
         ->check(CLI::Range(1, kMostPictures))
         ->capture_default_str();
+    // Without the check a negative number would wrap to a large seed.
     app.add_option("--seed", options.seed, "Another seed, other pictures")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--jobs", options.jobs, "How many are painted at a time")
         ->check(CLI::Range(1, kMostJobs))
         ->capture_default_str();
+    app.add_option("--side", options.side, "Longest side in pixels [640 to 800]")
+        ->check(CLI::Range(kLeastSide, kLargestSide));
     // CLI11 takes the words from the back.
     std::vector<std::string> words(arguments.rbegin(), arguments.rend());
     try {

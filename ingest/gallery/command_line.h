@@ -1,5 +1,5 @@
 // haarmony-gallery's command line:
-//   haarmony-gallery --out DIR [--count N] [--seed S] [--jobs N]
+//   haarmony-gallery --out DIR [--count N] [--seed S] [--side N] [--jobs N]
 //
 // Errors  exit code 2 for a bad command line, 3 when the pictures cannot be written; one
 //         line on `err` with the bad value or the file.

@@ -17,6 +17,9 @@ Mask box(const Frame& frame, double left, double top, double right, double botto
         return floor_int(clamp(v * unit, -1, limit + 1));
     };
     Mask mask;
+    if (right * unit < -1 || bottom * unit < -1 || left * unit > frame.width + 1 ||
+        top * unit > frame.height + 1)
+        return mask;
     mask.left = std::max(0, pixel(left, frame.width) - 1);
     mask.top = std::max(0, pixel(top, frame.height) - 1);
     mask.width = std::min(frame.width, pixel(right, frame.width) + 2) - mask.left;
@@ -148,13 +151,14 @@ void stroke_segment(const Frame& frame,
         for (int x = x0; x < x1; ++x) {
             const Point q{x + 0.5 - p.x, y + 0.5 - p.y};
             const double t = square > 0 ? clamp01((q.x * d.x + q.y * d.y) / square) : 0.0;
-            const double radius = mix(ra, rb, t) * unit;
+            const double width = mix(ra, rb, t) * unit;
+            // A hair thinner than a pixel covers as much of it as it is wide.
+            const double radius = std::max(width, 0.5);
             const double ex = q.x - d.x * t;
             const double ey = q.y - d.y * t;
             const double distance = std::sqrt(ex * ex + ey * ey);
-            // A hair thinner than a pixel covers as much of it as it is wide.
             const double covered =
-                clamp01(radius - distance + 0.5) * std::min(1.0, 2 * radius);
+                clamp01(radius - distance + 0.5) * std::min(1.0, 2 * width);
             float& value = row[x - left];
             value = std::max(value, static_cast<float>(covered));
         }

@@ -349,12 +349,10 @@ void paint_vessel(Canvas& canvas,
     for (auto p = side.rbegin(); p != side.rend(); ++p)
         outline.push_back(at + Point{-p->x, p->y});
     const bool glass = glaze == Glaze::kGlass;
-    canvas.rework([&, mask = cover_polygon(canvas.frame(), outline)](Point p,
-                                                                     const Color& below) {
-        const int px = floor_int(p.x * canvas.height());
-        const int py = floor_int(p.y * canvas.height());
-        const double covered = mask.at(px, py);
-        if (covered <= 0) return below;
+    const Mask mask = cover_polygon(canvas.frame(), outline);
+    canvas.each(mask, [&](int x, int y, double covered) {
+        const Point p = canvas.point(x, y);
+        const Color below = canvas.at(x, y);
         const double up = clamp01((at.y - p.y) / profile.height);
         const double place = up * static_cast<double>(side.size() - 1);
         const auto k = std::min(static_cast<std::size_t>(place), side.size() - 2);
@@ -395,7 +393,7 @@ void paint_vessel(Canvas& canvas,
                     0.18 + 0.6 * rim);
             c = c + lamp.light * (0.6 * highlight(lamp, u, -0.25, nz, 90));
         }
-        return mix(below, c, covered);
+        canvas.set(x, y, mix(below, c, covered));
     });
     // The mouth, dark inside.
     const Point mouth = at - Point{0, profile.height};
@@ -425,8 +423,8 @@ void paint_candle(Canvas& canvas,
                            wick + Point{-half * 0.6, -half * 1.6},
                            wick - Point{0, half * 4.2},
                            wick + Point{half * 0.6, -half * 1.6}};
-    canvas.glow(wick - Point{0, half * 2}, 0.75, Color{0.42, 0.25, 0.09});
-    canvas.glow(wick - Point{0, half * 2}, half * 7, Color{0.9, 0.55, 0.18});
+    canvas.glow(wick - Point{0, half * 2}, 0.75, Color{0.2, 0.11, 0.035});
+    canvas.glow(wick - Point{0, half * 2}, half * 7, Color{0.5, 0.28, 0.08});
     canvas.shade(
         cover_polygon(canvas.frame(), smooth_outline(flame, 8)), 1, [&](Point p) {
             return mix(Color{3.4, 2.7, 1.4},

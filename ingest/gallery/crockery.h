@@ -57,6 +57,7 @@ struct Profile {
 
 // How a vessel is decorated.
 enum class Glaze { kPlain, kBands, kZigzag, kDots, kGlass };
+inline constexpr int kGlazes = 5;
 
 void paint_vessel(Canvas& canvas,
                   const Lamp& lamp,

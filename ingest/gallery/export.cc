@@ -93,8 +93,8 @@ Result<void> replace(const std::filesystem::path& path, const Bytes& bytes) {
 
 // Returns whether the file had to be written.
 Result<bool> export_picture(const ExportOptions& options, int number) {
-    const Painting painting =
-        paint(options.seed, number, gallery_side(options.seed, number));
+    const Painting painting = paint(
+        options.seed, number, options.side.value_or(gallery_side(options.seed, number)));
     const ImageView view{painting.rgb.data(),
                          painting.width,
                          painting.height,

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "engine/core/result.h"
@@ -26,6 +27,8 @@ struct ExportOptions {
     std::uint64_t seed = 1;
     int count = 300;  // 1 .. kMostPictures
     int jobs = 1;     // 1 .. kMostJobs
+    // Longest side of every picture, kLeastSide .. kLargestSide; else gallery_side().
+    std::optional<int> side = {};
 };
 
 struct ExportReport {
@@ -33,7 +36,7 @@ struct ExportReport {
     int unchanged = 0;
 };
 
-// Requires: count and jobs within their ranges.
+// Requires: count, jobs and side (kLeastSide .. kLargestSide) within their ranges.
 [[nodiscard]] Result<ExportReport> export_gallery(const ExportOptions& options);
 
 // `kind` with blanks as dashes, the number counted from 1.

@@ -306,7 +306,7 @@ Label paint_flag(Canvas& canvas, Commission& commission) {
         random.chance(0.6) ? Color{0.92, 0.92, 0.9}
                            : oklch(0.88, 0.17, random.pick({kGold, kYellow, hue + 0.2})),
         oklch(random.between(0.34, 0.6), 0.19, hue + turn_about),
-        oklch(random.between(0.68, 0.84), 0.18, hue + random.pick({0.2, -0.2, 0.5}))};
+        oklch({random.between(0.68, 0.84), 0.18, hue + random.pick({0.2, -0.2, 0.5})})};
     struct Design {
         void (*draw)(Cloth&);
         const char* title;

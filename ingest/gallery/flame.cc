@@ -99,7 +99,7 @@ System invent(Random& random) {
                                 random.between(0.55, 1.0),
                                 (i + 0.5) / count});
     }
-    system.symmetry = random.pick({1, 1, 2, 3, 4, 5, 6});
+    system.symmetry = random.pick({1, 2, 3, 4, 5, 6});
     return system;
 }
 
@@ -109,7 +109,7 @@ struct Mote {
 };
 
 void advance(const System& system, Mote& mote, Random& random) {
-    const auto& step = system.steps[random.next() % system.steps.size()];
+    const auto& step = system.steps[(random.next() >> 32) * system.steps.size() >> 32];
     const Point p{step.a * mote.at.x + step.b * mote.at.y + step.c,
                   step.d * mote.at.x + step.e * mote.at.y + step.f};
     const Point v = vary(step.variation, p, random);
@@ -183,7 +183,7 @@ std::vector<Bin> smoothed(const std::vector<Bin>& bins, int width, int height) {
                 }
             }
             const Bin& own = bins[static_cast<std::size_t>(y) * width + x];
-            const float keep = static_cast<float>(smoothstep(2, 40, own.count));
+            const float keep = static_cast<float>(smoothstep(2, 32, own.count));
             wide[static_cast<std::size_t>(y) * width + x] = {
                 own.count * keep + sum.count / 9 * (1 - keep),
                 own.color * keep + sum.color / 9 * (1 - keep)};
@@ -199,7 +199,7 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
     System system = invent(random);
     Extent extent = survey(system, random);
     // Most systems collapse to a few points or scatter to dust; take one that does neither.
-    for (int attempt = 0; attempt < 24 && (extent.filled < 0.3 || extent.filled > 0.93);
+    for (int attempt = 0; attempt < 30 && (extent.filled < 0.36 || extent.filled > 0.93);
          ++attempt) {
         system = invent(random);
         extent = survey(system, random);
@@ -214,19 +214,24 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
     const int height = canvas.height();
     std::vector<Bin> bins(static_cast<std::size_t>(width) * height);
     const double scale = 0.46 * std::min(width, height) / extent.reach;
-    const double tilt = random.between(0, kTurn);
-    const int motes = width * height * 7;
+    // Each mote appears in one of the turned copies, in turn. A system without symmetry
+    // stands upright.
+    const double tilt = system.symmetry > 1 ? random.between(0, kTurn) : 0;
+    std::vector<Point> axes;
+    for (int i = 0; i < system.symmetry; ++i)
+        axes.push_back(turned({scale, 0}, tilt + kTurn * i / system.symmetry));
+    const Point centre =
+        Point{width / 2.0, height / 2.0} - turned(extent.centre * scale, tilt);
+    const int motes = width * height * 4;
     Mote mote;
-    for (int i = -40; i < motes; ++i) {
+    for (int i = 0; i < 40; ++i) advance(system, mote, random);
+    std::size_t copy = 0;
+    for (int i = 0; i < motes; ++i) {
         advance(system, mote, random);
-        if (i < 0) continue;
-        Point p = system.symmetry == 1
-                      ? mote.at
-                      : turned(mote.at, kTurn * (i % system.symmetry) / system.symmetry);
-        p = p - extent.centre;
-        if (system.symmetry > 1) p = turned(p, tilt);
-        const double x = p.x * scale + width / 2.0;
-        const double y = p.y * scale + height / 2.0;
+        copy = copy + 1 < axes.size() ? copy + 1 : 0;
+        const Point axis = axes[copy];
+        const double x = mote.at.x * axis.x - mote.at.y * axis.y + centre.x;
+        const double y = mote.at.x * axis.y + mote.at.y * axis.x + centre.y;
         if (x < 0 || y < 0 || x >= width || y >= height) continue;
         Bin& bin =
             bins[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
@@ -243,13 +248,13 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
             const double far = length(canvas.point(x, y) - middle);
             Color c = ground * (1.25 - 0.8 * far);
             if (bin.count > 0.001F) {
-                const double bright = logarithm(1 + bin.count) / logarithm(80);
+                const double bright = logarithm(1 + bin.count) / logarithm(48);
                 const Color tone = ramp.at(bin.color / bin.count);
                 if (on_light) {
                     c = mix(
                         c, tone * (1.1 - 0.55 * clamp01(bright)), clamp01(bright * 1.2));
                 } else {
-                    c = c + tone * (1.5 * bright * bright) +
+                    c = c + tone * (1.7 * bright * bright) +
                         Color{1, 1, 1} * (0.25 * power(bright, 4));
                 }
             }

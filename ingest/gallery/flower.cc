@@ -62,13 +62,11 @@ Label portrait(Canvas& canvas, Commission& commission) {
                        random.between(0.4, 0.52)};
     const Color green = oklch(0.5, 0.12, kGreen + random.between(-0.04, 0.03));
     stem(canvas, {centre.x + random.bell() * 0.05, 1.05}, centre, 0.014, green, random);
-    for (const double side : {-1.0, 1.0})
-        paint_leaf(canvas,
-                   {centre.x, random.between(0.82, 1.0)},
-                   side * random.between(0.8, 1.2),
-                   size * random.between(0.3, 0.45),
-                   0.42,
-                   green);
+    for (const double side : {-1.0, 1.0}) {
+        const Point root{centre.x, random.between(0.82, 1.0)};
+        const double angle = side * random.between(0.8, 1.2);
+        paint_leaf(canvas, root, angle, size * random.between(0.3, 0.45), 0.42, green);
+    }
     paint_blossom(canvas,
                   species,
                   centre,
@@ -80,9 +78,9 @@ Label portrait(Canvas& canvas, Commission& commission) {
 
 Label border(Canvas& canvas, Commission& commission) {
     Random& random = commission.random;
-    const Ramp air{oklch(random.between(0.75, 0.95),
-                         0.09,
-                         commission.hue + random.pick({0.5, 0.35, 0.2})),
+    const Ramp air{oklch({random.between(0.75, 0.95),
+                          0.09,
+                          commission.hue + random.pick({0.5, 0.35, 0.2})}),
                    oklch(0.93, 0.05, commission.hue + 0.2),
                    oklch(0.6, 0.12, kLime)};
     canvas.cover([&](Point p) { return air.at(p.y); });
@@ -110,9 +108,10 @@ Label border(Canvas& canvas, Commission& commission) {
                  0.005 + 0.003 * t,
                  green,
                  random);
+            const double side = random.sign();
             paint_leaf(canvas,
                        {x, head.y + 0.2},
-                       random.sign() * random.between(0.5, 1.0),
+                       side * random.between(0.5, 1.0),
                        0.14 + 0.05 * t,
                        0.3,
                        green);
@@ -154,8 +153,8 @@ Label pond(Canvas& canvas, Commission& commission) {
         Mask shadow = soften(canvas.frame(), mask, 0.008);
         shadow.top += static_cast<int>(0.014 * canvas.height());
         canvas.glaze(shadow, {0.1, 0.14, 0.2}, 0.6);
-        const Color leaf =
-            oklch(random.between(0.45, 0.65), 0.13, random.between(kLime, kGreen + 0.04));
+        const Color leaf = oklch(
+            {random.between(0.45, 0.65), 0.13, random.between(kLime, kGreen + 0.04)});
         canvas.shade(mask, 1, [&](Point p) {
             const Point d{(p.x - at.x) / r, (p.y - at.y) / (r * 0.52)};
             const double rib = smoothstep(
@@ -176,30 +175,32 @@ Label pond(Canvas& canvas, Commission& commission) {
 // A branch of blossoms against the sky, or of berries and leaves.
 Label branch(Canvas& canvas, Commission& commission) {
     Random& random = commission.random;
-    const Ramp sky{oklch(random.between(0.6, 0.8),
-                         0.11,
-                         commission.hue + random.pick({0.5, 0.42, 0.33})),
+    const Ramp sky{oklch({random.between(0.6, 0.8),
+                          0.11,
+                          commission.hue + random.pick({0.5, 0.42, 0.33})}),
                    oklch(0.94, 0.04, commission.hue + 0.3)};
     canvas.cover([&](Point p) { return sky.at(p.y * 0.8 + p.x * 0.15); });
-    if (random.chance(0.5))
-        canvas.disc(
-            {canvas.aspect() * random.between(0.3, 0.7), random.between(0.3, 0.6)},
-            random.between(0.18, 0.28),
-            oklch(0.93, 0.09, commission.hue + 0.1),
-            0.9);
+    if (random.chance(0.5)) {
+        const Point sun{canvas.aspect() * random.between(0.3, 0.7),
+                        random.between(0.3, 0.6)};
+        canvas.disc(sun,
+                    random.between(0.18, 0.28),
+                    oklch(0.93, 0.09, commission.hue + 0.1),
+                    0.9);
+    }
     const double side = random.sign();
-    const auto place = [&](double x, double y) {
-        return Point{side > 0 ? x * canvas.aspect() : (1 - x) * canvas.aspect(), y};
+    const auto place = [&](Point p) {
+        return Point{side > 0 ? p.x * canvas.aspect() : (1 - p.x) * canvas.aspect(), p.y};
     };
     const Color bark = oklch(0.3, 0.05, 0.1);
     std::vector<Point> tips;
     for (int i = 0; i < 7; ++i) {
         const double y = random.between(0.1, 0.95);
         const Point way[] = {
-            place(-0.05, y),
-            place(random.between(0.2, 0.4), y - random.between(0, 0.14)),
-            place(random.between(0.5, 0.75), y - random.between(-0.1, 0.25)),
-            place(random.between(0.75, 1.0), y - random.between(-0.12, 0.4))};
+            place({-0.05, y}),
+            place({random.between(0.2, 0.4), y - random.between(0, 0.14)}),
+            place({random.between(0.5, 0.75), y - random.between(-0.1, 0.25)}),
+            place({random.between(0.75, 1.0), y - random.between(-0.12, 0.4)})};
         const auto path = smooth_path(way, 14);
         const double r = i < 2 ? 0.019 : 0.009;
         canvas.taper(path, r, 0.0025, bark);

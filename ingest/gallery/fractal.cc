@@ -21,7 +21,7 @@ struct Orbit {
     double light = 0;  // -1 .. 1, of the potential seen as a hill lit from the upper left
 };
 
-constexpr int kMostSteps = 320;
+constexpr int kMostSteps = 224;
 constexpr double kFar = 400;  // squared; the larger, the smoother the time
 
 enum class Formula { kSquare, kShip };
@@ -29,6 +29,8 @@ enum class Formula { kSquare, kShip };
 Orbit escape(Complex z, Complex c, bool of_parameter, Formula formula) {
     Complex slope{of_parameter ? 0.0 : 1.0, 0};
     double trap = 1e9;
+    Complex remembered = z;
+    int next_memory = 8;
     for (int step = 0; step < kMostSteps; ++step) {
         const double re2 = z.re * z.re;
         const double im2 = z.im * z.im;
@@ -42,6 +44,14 @@ Orbit escape(Complex z, Complex c, bool of_parameter, Formula formula) {
             const double norm = std::sqrt(u.re * u.re + u.im * u.im);
             const double light = norm > 0 ? (u.re * -0.7071 + u.im * -0.7071) / norm : 0;
             return {true, step + 1 - logs, std::sqrt(trap), light};
+        }
+        // An orbit that comes back to where it was goes round for ever.
+        if (std::fabs(z.re - remembered.re) + std::fabs(z.im - remembered.im) < 1e-9 &&
+            step > 0)
+            break;
+        if (step == next_memory) {
+            remembered = z;
+            next_memory *= 2;
         }
         if (step > 0) trap = std::min({trap, re2 + 0.02, im2 + 0.02, re2 + im2});
         slope = {2 * (z.re * slope.re - z.im * slope.im) + (of_parameter ? 1.0 : 0.0),
@@ -112,20 +122,17 @@ void render(Canvas& canvas, F&& color) {
             const Color c = canvas.at(x, y + 1) + a * -1.0;
             const double difference = std::fabs(b.r) + std::fabs(b.g) + std::fabs(b.b) +
                                       std::fabs(c.r) + std::fabs(c.g) + std::fabs(c.b);
-            rough[static_cast<std::size_t>(y) * canvas.width() + x] = difference > 0.35;
+            rough[static_cast<std::size_t>(y) * canvas.width() + x] = difference > 0.5;
         }
     }
-    const double quarter = canvas.pixel() / 3;
+    const double third = canvas.pixel() / 3;
     for (int y = 0; y < canvas.height(); ++y) {
         for (int x = 0; x < canvas.width(); ++x) {
             if (!rough[static_cast<std::size_t>(y) * canvas.width() + x]) continue;
             const Point p = canvas.point(x, y);
-            const Color sum = canvas.at(x, y) +
-                              color(p + Point{quarter, -quarter * 0.5}) +
-                              color(p + Point{-quarter, quarter * 0.5}) +
-                              color(p + Point{quarter * 0.5, quarter}) +
-                              color(p + Point{-quarter * 0.5, -quarter});
-            canvas.set(x, y, sum * 0.2);
+            const Color sum = canvas.at(x, y) + color(p + Point{third, -third}) +
+                              color(p + Point{-third, third});
+            canvas.set(x, y, sum * (1.0 / 3));
         }
     }
 }

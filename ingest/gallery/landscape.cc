@@ -39,12 +39,14 @@ Scene begin(Canvas& canvas,
     return scene;
 }
 
+// Down to `floor`, below which something nearer hides them.
 void ranges(Scene& s,
             int count,
             double base,
             double height,
             double sharpness,
-            double snow) {
+            double snow,
+            double floor) {
     const double hue = s.random.pick({0.08, 0.15, 0.7, 0.8, 0.4});
     for (int i = 0; i < count; ++i) {
         const double near = count == 1 ? 0.6 : static_cast<double>(i) / (count - 1);
@@ -59,6 +61,7 @@ void ranges(Scene& s,
              .snow = snow * mix(1.0, 0.7, near),
              .rock = oklch(mix(0.55, 0.46, near), 0.05, hue),
              .grass = oklch(0.50, 0.09, kGreen + s.random.between(-0.06, 0.03)),
+             .floor = floor,
              .seed = s.random.noise_seed()});
     }
 }
@@ -82,7 +85,8 @@ Label mountain_lake(Canvas& canvas, Commission& commission) {
                     {Hour::kMorning, Hour::kGoldenHour, Hour::kNoon, Hour::kDusk},
                     0.54,
                     0.66);
-    ranges(s, 3, s.horizon, s.random.between(0.3, 0.44), 1, s.random.between(0.3, 0.75));
+    const double height = s.random.between(0.3, 0.44);
+    ranges(s, 3, s.horizon, height, 1, s.random.between(0.3, 0.75), s.horizon + 0.05);
     conifers_along(s, s.horizon + 0.012, 0.07, 90, 0);
     const Color water =
         oklch(0.42, 0.09, s.random.pick({kTeal, kCyan, kSkyBlue, kBlue})) *
@@ -90,13 +94,15 @@ Label mountain_lake(Canvas& canvas, Commission& commission) {
     paint_water(canvas, s.horizon + 0.02, water, s.random.between(0.35, 1.2), s.sky.seed);
     if (s.random.chance(0.5)) {
         const double side = s.random.chance(0.5) ? 0.08 : 0.92;
-        for (int i = 0; i < 5; ++i)
+        for (int i = 0; i < 5; ++i) {
+            const Point at{canvas.aspect() * side + s.random.bell() * 0.07, 1.04};
             paint_conifer(canvas,
-                          {canvas.aspect() * side + s.random.bell() * 0.07, 1.04},
+                          at,
                           s.random.between(0.35, 0.62),
                           oklch(0.38, 0.08, kGreen) * s.sky.sunlight,
                           oklch(0.18, 0.05, kTeal),
                           s.random);
+        }
     } else {
         paint_sail_boat(
             canvas,
@@ -115,7 +121,7 @@ Label meadow(Canvas& canvas, Commission& commission) {
                     {Hour::kNoon, Hour::kGoldenHour, Hour::kMorning, Hour::kStorm},
                     0.46,
                     0.6);
-    ranges(s, 2, s.horizon, 0.16, 0.4, 0);
+    ranges(s, 2, s.horizon, 0.16, 0.4, 0, s.horizon + 0.15);
     const double green = s.random.between(kLime - 0.02, kGreen + 0.02);
     for (int i = 0; i < 3; ++i) {
         const double t = i / 2.0;
@@ -127,15 +133,17 @@ Label meadow(Canvas& canvas, Commission& commission) {
                     .lit = oklch(0.72, 0.16, green),
                     .shaded = oklch(0.46, 0.11, green + 0.03),
                     .seed = s.random.noise_seed()});
-        if (i < 2)
-            for (int k = 0; k < 4; ++k)
-                paint_round_tree(canvas,
-                                 {s.random.between(0, canvas.aspect()),
-                                  mix(s.horizon + 0.06, 0.82, t) + 0.01},
-                                 mix(0.07, 0.2, t) * s.random.between(0.7, 1.2),
-                                 oklch(0.5, 0.12, green + s.random.between(-0.02, 0.03)),
-                                 s.sky,
-                                 s.random);
+        for (int k = 0; k < 4 && i < 2; ++k) {
+            const Point at{s.random.between(0, canvas.aspect()),
+                           mix(s.horizon + 0.06, 0.82, t) + 0.01};
+            const double size = mix(0.07, 0.2, t) * s.random.between(0.7, 1.2);
+            paint_round_tree(canvas,
+                             at,
+                             size,
+                             oklch(0.5, 0.12, green + s.random.between(-0.02, 0.03)),
+                             s.sky,
+                             s.random);
+        }
     }
     paint_house(canvas,
                 {canvas.aspect() * s.random.between(0.2, 0.8), s.horizon + 0.09},
@@ -165,20 +173,23 @@ Label desert(Canvas& canvas, Commission& commission) {
                     {Hour::kGoldenHour, Hour::kNoon, Hour::kSunset, Hour::kNight},
                     0.36,
                     0.56);
-    ranges(s, 1, s.horizon + 0.02, 0.12, 0.7, 0);
+    ranges(s, 1, s.horizon + 0.02, 0.12, 0.7, 0, s.horizon + 0.1);
     const Color sand =
-        oklch(s.random.between(0.66, 0.84), 0.13, s.random.between(0.11, 0.22));
+        oklch({s.random.between(0.66, 0.84), 0.13, s.random.between(0.11, 0.22)});
     paint_dunes(canvas, s.sky, s.horizon, 6, sand, s.random.noise_seed());
     if (s.random.chance(0.6)) {
         const int palms = 2 + s.random.below(4);
         const double x = canvas.aspect() * s.random.between(0.2, 0.8);
-        for (int i = 0; i < palms; ++i)
+        for (int i = 0; i < palms; ++i) {
+            const Point at{x + s.random.bell() * 0.06, s.horizon + 0.2};
+            const double size = s.random.between(0.14, 0.24);
             paint_palm(canvas,
-                       {x + s.random.bell() * 0.06, s.horizon + 0.2},
-                       s.random.between(0.14, 0.24),
+                       at,
+                       size,
                        s.random.between(-0.3, 0.3),
                        oklch(0.42, 0.1, kGreen) * (s.sky.sunlight + s.sky.ambient),
                        s.random);
+        }
     }
     return {"Dunes " + s.sky.when(), {"desert", "dunes", s.sky.tag()}};
 }
@@ -189,7 +200,7 @@ Label flower_rows(Canvas& canvas, Commission& commission) {
                     {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kGoldenHour},
                     0.34,
                     0.52);
-    ranges(s, 1, s.horizon + 0.01, 0.1, 0.3, 0);
+    ranges(s, 1, s.horizon + 0.01, 0.1, 0.3, 0, s.horizon + 0.02);
     const bool lavender = s.random.chance(0.3);
     std::vector<Color> colors;
     if (lavender) {
@@ -199,22 +210,22 @@ Label flower_rows(Canvas& canvas, Commission& commission) {
             colors.push_back(oklch(s.random.between(0.6, 0.82), 0.21, s.hue + offset));
     }
     paint_rows(canvas, s.sky, s.horizon, colors, s.random);
-    for (int i = 0; i < 14; ++i)
+    for (int i = 0; i < 14; ++i) {
+        const Point at{s.random.between(0, canvas.aspect()), s.horizon + 0.008};
         paint_round_tree(canvas,
-                         {s.random.between(0, canvas.aspect()), s.horizon + 0.008},
+                         at,
                          s.random.between(0.025, 0.06),
                          oklch(0.45, 0.1, kGreen),
                          s.sky,
                          s.random);
+    }
     const int balloons = s.random.below(4);
-    for (int i = 0; i < balloons; ++i)
-        paint_balloon(canvas,
-                      {canvas.aspect() * s.random.between(0.1, 0.9),
-                       s.horizon * s.random.between(0.45, 0.9)},
-                      s.random.between(0.08, 0.24),
-                      s.hue + i * 0.31,
-                      s.sky,
-                      s.random);
+    for (int i = 0; i < balloons; ++i) {
+        const Point at{canvas.aspect() * s.random.between(0.1, 0.9),
+                       s.horizon * s.random.between(0.45, 0.9)};
+        paint_balloon(
+            canvas, at, s.random.between(0.08, 0.24), s.hue + i * 0.31, s.sky, s.random);
+    }
     return {std::string(lavender ? "Lavender " : "Tulip fields ") + s.sky.when(),
             {"field", "flowers", s.sky.tag()}};
 }
@@ -225,7 +236,7 @@ Label winter(Canvas& canvas, Commission& commission) {
                     {Hour::kNight, Hour::kMorning, Hour::kNoon, Hour::kSunset},
                     0.5,
                     0.64);
-    ranges(s, 3, s.horizon, s.random.between(0.24, 0.4), 1, 1);
+    ranges(s, 3, s.horizon, s.random.between(0.24, 0.4), 1, 1, s.horizon + 0.2);
     const Color snow{0.86, 0.9, 1.0};
     conifers_along(s, s.horizon + 0.05, 0.1, 70, 0.25);
     for (int i = 0; i < 2; ++i) {
@@ -238,16 +249,15 @@ Label winter(Canvas& canvas, Commission& commission) {
                     .shaded = Color{0.45, 0.55, 0.85},
                     .texture = 0.15,
                     .seed = s.random.noise_seed()});
-        if (i == 0) {
-            for (int k = 0; k < 3; ++k)
-                paint_house(
-                    canvas,
-                    {canvas.aspect() * (0.3 + 0.2 * k) + s.random.bell() * 0.03,
-                     s.horizon + 0.12},
-                    0.07,
-                    oklch(0.5, 0.13, s.random.pick({kRed, kOrange, kGold, kBlue})),
-                    snow,
-                    s.sky);
+        for (int k = 0; k < 3 && i == 0; ++k) {
+            const Point at{canvas.aspect() * (0.3 + 0.2 * k) + s.random.bell() * 0.03,
+                           s.horizon + 0.12};
+            paint_house(canvas,
+                        at,
+                        0.07,
+                        oklch(0.5, 0.13, s.random.pick({kRed, kOrange, kGold, kBlue})),
+                        snow,
+                        s.sky);
         }
         conifers_along(
             s, mix(s.horizon + 0.13, 0.97, i), mix(0.13, 0.34, i), 9 - 3 * i, 0.6);
@@ -262,21 +272,19 @@ Label autumn(Canvas& canvas, Commission& commission) {
                     {Hour::kGoldenHour, Hour::kNoon, Hour::kStorm, Hour::kMorning},
                     0.42,
                     0.56);
-    ranges(s, 2, s.horizon, 0.2, 0.5, 0);
+    ranges(s, 2, s.horizon, 0.2, 0.5, 0, 1);
     static constexpr double kLeaves[] = {kRed, 0.1, kOrange, kGold, kGold, kYellow};
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < 3; ++row) {
         const double t = row / 3.0;
         const double y = mix(s.horizon + 0.03, 0.86, t);
-        if (row == 3) break;
-        for (int i = 0; i < 16 - 4 * row; ++i)
-            paint_round_tree(
-                canvas,
-                {s.random.between(-0.05, canvas.aspect() + 0.05),
-                 y + 0.02 * s.random.unit()},
-                mix(0.1, 0.34, t) * s.random.between(0.75, 1.2),
-                oklch(s.random.between(0.52, 0.74), 0.17, s.random.pick(kLeaves)),
-                s.sky,
-                s.random);
+        for (int i = 0; i < 16 - 4 * row; ++i) {
+            const Point at{s.random.between(-0.05, canvas.aspect() + 0.05),
+                           y + 0.02 * s.random.unit()};
+            const double size = mix(0.1, 0.34, t) * s.random.between(0.75, 1.2);
+            const Color leaf =
+                oklch({s.random.between(0.52, 0.74), 0.17, s.random.pick(kLeaves)});
+            paint_round_tree(canvas, at, size, leaf, s.sky, s.random);
+        }
     }
     if (s.random.chance(0.6)) {
         paint_water(
@@ -289,12 +297,10 @@ Label autumn(Canvas& canvas, Commission& commission) {
                     .lit = oklch(0.7, 0.13, kGold),
                     .shaded = oklch(0.45, 0.1, kOrange),
                     .seed = s.random.noise_seed()});
-        paint_round_tree(canvas,
-                         {canvas.aspect() * s.random.between(0.15, 0.85), 0.93},
-                         s.random.between(0.5, 0.72),
-                         oklch(0.62, 0.2, s.random.pick(kLeaves)),
-                         s.sky,
-                         s.random);
+        const Point at{canvas.aspect() * s.random.between(0.15, 0.85), 0.93};
+        const double size = s.random.between(0.5, 0.72);
+        paint_round_tree(
+            canvas, at, size, oklch(0.62, 0.2, s.random.pick(kLeaves)), s.sky, s.random);
     }
     return {"Autumn " + s.sky.when(), {"autumn", "trees", s.sky.tag()}};
 }
@@ -345,7 +351,7 @@ Label balloons(Canvas& canvas, Commission& commission) {
                     {Hour::kMorning, Hour::kNoon, Hour::kSunset, Hour::kGoldenHour},
                     0.7,
                     0.82);
-    ranges(s, 3, s.horizon, 0.2, s.random.between(0.2, 1), 0.1);
+    ranges(s, 3, s.horizon, 0.2, s.random.between(0.2, 1), 0.1, 1);
     paint_hill(canvas,
                s.sky,
                {.base = 0.92,

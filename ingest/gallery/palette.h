@@ -55,6 +55,17 @@ inline constexpr double kPink = 0.99;
 // as fits into sRGB. Requires: lightness in [0, 1], chroma >= 0.
 [[nodiscard]] Color oklch(double lightness, double chroma, double hue);
 
+// The same from a braced list, whose parts are worked out in the order in which they are
+// written: several random parts as plain arguments would differ between compilers.
+struct Lch {
+    double lightness;
+    double chroma;
+    double hue;
+};
+[[nodiscard]] inline Color oklch(const Lch& color) {
+    return oklch(color.lightness, color.chroma, color.hue);
+}
+
 // A smooth way through several colours, interpolated in OKLab and tabulated.
 class Ramp {
   public:

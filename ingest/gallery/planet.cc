@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "ingest/gallery/field.h"
 #include "ingest/gallery/noise.h"
 #include "ingest/gallery/painters.h"
 
@@ -27,7 +28,7 @@ void nebula(Space& s, double brightness) {
     const double narrow = s.random.between(1.2, 3.5);
     const Point centre{s.canvas.aspect() * s.random.between(0.25, 0.75),
                        s.random.between(0.3, 0.7)};
-    s.canvas.cover([&](Point p) {
+    const Field glow(s.canvas.frame(), 1, [&](Point p) {
         const Point d = turned(p - centre, angle);
         const double warp = fbm(p.x * 2.1, p.y * 2.1, 3, seed);
         const double gas =
@@ -35,19 +36,21 @@ void nebula(Space& s, double brightness) {
         const double band = exponential(-narrow * d.y * d.y * 4 - d.x * d.x * 0.8);
         const double dust =
             smoothstep(0.05, 0.5, fbm(p.x * 3.7 - warp, p.y * 3.7, 3, seed + 11));
-        const double t =
-            clamp01((0.32 + 0.75 * gas) * (0.35 + 0.9 * band) - 0.28 * dust * band);
-        return ramp.at(t * brightness) * (0.5 + brightness * 0.7);
+        return clamp01((0.32 + 0.75 * gas) * (0.5 + 0.85 * band) - 0.28 * dust * band);
     });
+    for (int y = 0; y < s.canvas.height(); ++y)
+        for (int x = 0; x < s.canvas.width(); ++x)
+            s.canvas.set(
+                x, y, ramp.at(glow.at(x, y) * brightness) * (0.5 + brightness * 0.7));
 }
 
 void stars(Space& s, int count) {
     for (int i = 0; i < count; ++i) {
         const Point p{s.random.between(0, s.canvas.aspect()), s.random.unit()};
-        const double b = power(s.random.unit(), 9);
+        const double b = power(s.random.unit(), 16);
         const Color tint = oklch(0.94, 0.06, s.random.pick({0.08, 0.2, 0.68, 0.74}));
         s.canvas.glow(p, 0.0024 + 0.009 * b, tint * (0.35 + 3 * b));
-        if (b < 0.55) continue;
+        if (b < 0.6) continue;
         s.canvas.glow(p, 0.05 * b, tint * 0.25);
         for (const Point d : {Point{0.03, 0}, Point{0, 0.03}})
             s.canvas.line(p - d * b, p + d * b, 0.0009, tint * 1.6, 0.7);
@@ -192,32 +195,42 @@ void rings(Space& s,
     });
 }
 
-Globe globe_at(Space& s, Point centre, double radius, double phase, double air_hue) {
-    return {
-        centre, radius, s.random.between(-0.6, 0.6), phase, oklch(0.72, 0.15, air_hue)};
+// A braced list, since its parts are often random and must be drawn in order.
+struct Station {
+    Point centre;
+    double radius;
+    double phase;
+};
+
+Globe globe_at(Space& s, const Station& station, double air_hue) {
+    return {station.centre,
+            station.radius,
+            s.random.between(-0.6, 0.6),
+            station.phase,
+            oklch(0.72, 0.15, air_hue)};
 }
 
 void moons(Space& s, int count) {
-    for (int i = 0; i < count; ++i)
-        rocky_moon(s,
-                   globe_at(s,
-                            {s.canvas.aspect() * s.random.between(0.08, 0.92),
-                             s.random.between(0.1, 0.9)},
-                            s.random.between(0.025, 0.08),
-                            s.random.between(0.6, 0.9),
-                            s.hue),
-                   s.random.unit(),
-                   s.random.between(0.02, 0.1));
+    for (int i = 0; i < count; ++i) {
+        const Globe moon = globe_at(s,
+                                    {{s.canvas.aspect() * s.random.between(0.08, 0.92),
+                                      s.random.between(0.1, 0.9)},
+                                     s.random.between(0.025, 0.08),
+                                     s.random.between(0.6, 0.9)},
+                                    s.hue);
+        const double hue = s.random.unit();
+        rocky_moon(s, moon, hue, s.random.between(0.02, 0.1));
+    }
 }
 
 Label ringed(Space& s) {
-    nebula(s, s.random.between(0.25, 0.6));
+    nebula(s, s.random.between(0.55, 0.9));
     stars(s, 260);
     const Globe g = globe_at(
         s,
-        {s.canvas.aspect() * s.random.between(0.4, 0.6), s.random.between(0.42, 0.58)},
-        0.19 * std::min(1.25, s.canvas.aspect() + 0.1),
-        s.random.between(0.4, 0.75),
+        {{s.canvas.aspect() * s.random.between(0.4, 0.6), s.random.between(0.42, 0.58)},
+         0.19 * std::min(1.25, s.canvas.aspect() + 0.1),
+         s.random.between(0.4, 0.75)},
         s.hue + 0.1);
     const std::uint32_t seed = s.random.noise_seed();
     const double flatness = s.random.between(0.14, 0.4);
@@ -229,14 +242,14 @@ Label ringed(Space& s) {
 }
 
 Label blue_world(Space& s) {
-    nebula(s, s.random.between(0.1, 0.4));
+    nebula(s, s.random.between(0.35, 0.8));
     stars(s, 300);
     const double air = s.random.pick({kSkyBlue, kCyan, kViolet, kOrange});
     const Globe g = globe_at(
         s,
-        {s.canvas.aspect() * s.random.between(0.3, 0.7), s.random.between(0.45, 0.7)},
-        s.random.between(0.3, 0.44) * std::min(1.1, s.canvas.aspect()),
-        s.random.between(0.5, 0.85),
+        {{s.canvas.aspect() * s.random.between(0.3, 0.7), s.random.between(0.45, 0.7)},
+         s.random.between(0.3, 0.44) * std::min(1.1, s.canvas.aspect()),
+         s.random.between(0.5, 0.85)},
         air);
     living_world(s, g, air == kOrange ? kTeal : air + 0.04);
     moons(s, 1);
@@ -244,13 +257,13 @@ Label blue_world(Space& s) {
 }
 
 Label close_giant(Space& s) {
-    nebula(s, s.random.between(0.3, 0.7));
+    nebula(s, s.random.between(0.5, 0.9));
     stars(s, 220);
     const double side = s.random.chance(0.5) ? 0.02 : 0.98;
     const Globe g = globe_at(s,
-                             {s.canvas.aspect() * side, s.random.between(0.55, 1.0)},
-                             s.random.between(0.6, 0.82),
-                             s.random.between(0.4, 0.8),
+                             {{s.canvas.aspect() * side, s.random.between(0.55, 1.0)},
+                              s.random.between(0.6, 0.82),
+                              s.random.between(0.4, 0.8)},
                              s.hue + 0.1);
     gas_giant(s, g, s.hue);
     moons(s, 3);
@@ -262,16 +275,16 @@ Label horizon_world(Space& s) {
     stars(s, 240);
     const Globe far = globe_at(
         s,
-        {s.canvas.aspect() * s.random.between(0.25, 0.75), s.random.between(0.25, 0.42)},
-        s.random.between(0.12, 0.24),
-        0.7,
+        {{s.canvas.aspect() * s.random.between(0.25, 0.75), s.random.between(0.25, 0.42)},
+         s.random.between(0.12, 0.24),
+         0.7},
         s.hue + 0.4);
     if (s.random.chance(0.5))
         gas_giant(s, far, s.hue + 0.5);
     else
         rocky_moon(s, far, s.hue + 0.3, 0.12);
     s.light = {s.light.x, -std::fabs(s.light.y)};
-    const Globe ground = globe_at(s, {s.canvas.aspect() / 2, 2.1}, 1.42, 0.8, s.hue);
+    const Globe ground = globe_at(s, {{s.canvas.aspect() / 2, 2.1}, 1.42, 0.8}, s.hue);
     rocky_moon(s, ground, s.hue + 0.05, 0.13);
     return {"Over the horizon", {"planet", "moon", "space"}};
 }
@@ -284,7 +297,8 @@ Label spiral_galaxy(Space& s) {
     const double angle = s.random.between(0, kTurn);
     const double flatness = s.random.between(0.35, 0.9);
     const int arms = 2 + s.random.below(3);
-    const double winding = s.random.between(2.6, 4.6) * s.random.sign();
+    const double sense = s.random.sign();
+    const double winding = sense * s.random.between(2.6, 4.6);
     const double scale = s.random.between(0.34, 0.46) * std::min(1.2, canvas.aspect());
     const Color arm = oklch(0.62, 0.19, s.hue);
     const Color edge = oklch(0.36, 0.18, s.hue + 0.14);
@@ -298,14 +312,14 @@ Label spiral_galaxy(Space& s) {
         const double swirl =
             0.5 + 0.5 * cosine(arms * theta - winding * logarithm(r + 0.08) * 1.3 +
                                1.2 * clump);
-        const double disc = exponential(-1.9 * r);
-        const double light = disc * (0.25 + 1.6 * swirl * swirl) * (1 + 0.8 * clump);
-        const double bulge = exponential(-r * r * 26);
+        const double disc = exponential(-1.6 * r);
+        const double light = disc * (0.3 + 2.6 * swirl * swirl) * (1 + 0.8 * clump);
+        const double bulge = exponential(-r * r * 38);
         const double knots =
             smoothstep(0.3, 0.7, noise(p.x * 42, p.y * 42, seed + 3)) * swirl * disc;
         return Color{0.004, 0.005, 0.014} +
                mix(edge, arm, clamp01(1.4 - r)) * std::max(0.0, light) +
-               core * (2.2 * bulge + 0.5 * disc * disc) +
+               core * (1.7 * bulge + 0.4 * disc * disc) +
                Color{1.2, 0.5, 0.7} * (0.9 * knots);
     });
     stars(s, 300);
@@ -313,7 +327,7 @@ Label spiral_galaxy(Space& s) {
 }
 
 Label eclipse(Space& s) {
-    nebula(s, s.random.between(0.15, 0.5));
+    nebula(s, s.random.between(0.2, 0.6));
     stars(s, 200);
     const Point centre{s.canvas.aspect() * s.random.between(0.35, 0.65),
                        s.random.between(0.35, 0.65)};

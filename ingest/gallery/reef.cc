@@ -139,13 +139,18 @@ Label paint_reef(Canvas& canvas, Commission& commission) {
     }
     const int shoal = 6 + random.below(12);
     const double heading = random.sign();
-    for (int i = 0; i < shoal; ++i)
+    for (int i = 0; i < shoal; ++i) {
+        const Point at{canvas.aspect() * random.between(0.05, 0.95),
+                       random.between(0.12, 0.78)};
+        const double size = random.between(0.05, i == 0 ? 0.24 : 0.13);
+        const double own = random.chance(0.85) ? heading : -heading;
         fish(canvas,
-             {canvas.aspect() * random.between(0.05, 0.95), random.between(0.12, 0.78)},
-             random.between(0.05, i == 0 ? 0.24 : 0.13),
-             random.chance(0.85) ? heading : -heading,
+             at,
+             size,
+             own,
              commission.hue + 0.5 + random.pick({0.0, 0.1, 0.35}),
              random);
+    }
     for (int i = 0; i < 30; ++i) {
         const Point p{canvas.aspect() * random.unit(), random.unit()};
         canvas.disc(p, random.between(0.003, 0.009), {0.9, 0.97, 1}, 0.3);

@@ -92,15 +92,13 @@ Label sailing(Canvas& canvas, Commission& commission) {
     const int boats = 1 + s.random.below(5);
     for (int i = 0; i < boats; ++i) {
         const double t = boats == 1 ? 0.8 : static_cast<double>(i) / (boats - 1);
-        paint_sail_boat(
-            canvas,
-            {canvas.aspect() * fraction(s.random.unit() * 0.2 + 0.15 + i * 0.618),
-             mix(s.horizon + 0.02, 0.82, t * t)},
-            mix(0.07, 0.5, t * t) * s.random.between(0.8, 1.1),
-            s.random.chance(0.4) ? Color{0.93, 0.92, 0.88}
-                                 : oklch(0.72, 0.2, s.hue + i * 0.3),
-            oklch(0.38, 0.13, s.hue + 0.5),
-            s.sky);
+        const Point at{
+            canvas.aspect() * fraction(s.random.unit() * 0.2 + 0.15 + i * 0.618),
+            mix(s.horizon + 0.02, 0.82, t * t)};
+        const double size = mix(0.07, 0.5, t * t) * s.random.between(0.8, 1.1);
+        const Color sail = s.random.chance(0.4) ? Color{0.93, 0.92, 0.88}
+                                                : oklch(0.72, 0.2, s.hue + i * 0.3);
+        paint_sail_boat(canvas, at, size, sail, oklch(0.38, 0.13, s.hue + 0.5), s.sky);
     }
     paint_birds(canvas,
                 {canvas.aspect() * 0.5, s.horizon * 0.45},
@@ -128,9 +126,10 @@ Label lighthouse(Canvas& canvas, Commission& commission) {
         return foot + 0.2 - 0.36 * fall + 0.03 * fbm(x * 5, 0.5, 4, s.sky.seed);
     };
     const double at = canvas.aspect() * (left ? 0.24 : 0.76);
+    const double height = s.random.between(0.4, 0.5);
     paint_lighthouse(canvas,
                      {at, crest(at) + 0.03},
-                     s.random.between(0.4, 0.5),
+                     height,
                      oklch(0.5, 0.2, s.random.pick({kRed, s.hue})),
                      s.sky);
     const Color light = s.sky.sunlight * 0.7 + s.sky.ambient;
@@ -173,7 +172,7 @@ Label beach(Canvas& canvas, Commission& commission) {
     const std::uint32_t seed = s.random.noise_seed();
     const double slant = s.random.between(-0.3, 0.3);
     const Color sand =
-        oklch(0.86, s.random.between(0.05, 0.09), s.random.between(0.16, 0.24));
+        oklch({0.86, s.random.between(0.05, 0.09), s.random.between(0.16, 0.24)});
     const Color light = s.sky.sunlight * 0.75 + s.sky.ambient * 0.8;
     canvas.rework([&](Point p, const Color& below) {
         const double shore = 0.72 + slant * (p.x - canvas.aspect() / 2) +
@@ -197,14 +196,14 @@ Label beach(Canvas& canvas, Commission& commission) {
             c, Color{0.97, 0.98, 0.98} * (light + Color{0.1, 0.1, 0.1}), clamp01(foam));
     });
     const bool left = s.random.chance(0.5);
-    for (int i = 0; i < 2 + s.random.below(2); ++i)
-        paint_palm(canvas,
-                   {canvas.aspect() * (left ? 0.1 : 0.9) + s.random.bell() * 0.06,
-                    1.0 - 0.05 * i},
-                   s.random.between(0.55, 0.8),
-                   (left ? 1 : -1) * s.random.between(0.1, 0.4),
-                   oklch(0.45, 0.12, kGreen) * light,
-                   s.random);
+    const int palms = 2 + s.random.below(2);
+    for (int i = 0; i < palms; ++i) {
+        const Point at{canvas.aspect() * (left ? 0.1 : 0.9) + s.random.bell() * 0.06,
+                       1.0 - 0.05 * i};
+        const double size = s.random.between(0.55, 0.8);
+        const double lean = (left ? 1 : -1) * s.random.between(0.1, 0.4);
+        paint_palm(canvas, at, size, lean, oklch(0.45, 0.12, kGreen) * light, s.random);
+    }
     const double x = canvas.aspect() * (left ? 0.66 : 0.34);
     // A parasol and its towel.
     const Color cloth = oklch(0.62, 0.22, s.hue);
@@ -230,17 +229,17 @@ Label woodcut(Canvas& canvas, Commission& commission) {
         commission.turn % 2 == 0 ? random.between(kCyan, kBlue) : commission.hue;
     const Color paper = oklch(0.92, 0.05, random.pick({0.22, 0.12, hue + 0.5}));
     const Color sky_top =
-        oklch(random.between(0.6, 0.85), 0.1, hue + random.pick({0.5, 0.3, 0.42}));
+        oklch({random.between(0.6, 0.85), 0.1, hue + random.pick({0.5, 0.3, 0.42})});
     const Ramp sky{sky_top, paper};
     const double horizon = random.between(0.36, 0.5);
     const std::uint32_t seed = random.noise_seed();
     canvas.cover([&](Point p) {
         return sky.at(p.y / horizon) * (1 + 0.03 * noise(p.x * 3, p.y * 90, seed));
     });
-    canvas.disc(
-        {canvas.aspect() * random.between(0.2, 0.8), horizon * random.between(0.3, 0.7)},
-        random.between(0.09, 0.17),
-        oklch(0.62, 0.22, random.pick({kRed, hue + 0.5})));
+    const Point sun{canvas.aspect() * random.between(0.2, 0.8),
+                    horizon * random.between(0.3, 0.7)};
+    const double sun_radius = random.between(0.09, 0.17);
+    canvas.disc(sun, sun_radius, oklch(0.62, 0.22, random.pick({kRed, hue + 0.5})));
     constexpr int kRows = 9;
     const double frequency = random.between(0.9, 1.6);
     for (int row = 0; row < kRows; ++row) {
@@ -334,13 +333,14 @@ Label islands(Canvas& canvas, Commission& commission) {
                 oklch(0.45, 0.12, tone) * (s.sky.sunlight * 0.8 + s.sky.ambient),
                 0.9,
                 s.sky.seed);
-    paint_sail_boat(
-        canvas,
-        {canvas.aspect() * s.random.between(0.2, 0.8), s.random.between(0.72, 0.86)},
-        s.random.between(0.16, 0.34),
-        oklch(0.72, 0.2, s.hue),
-        oklch(0.4, 0.1, s.hue + 0.4),
-        s.sky);
+    const Point boat{canvas.aspect() * s.random.between(0.2, 0.8),
+                     s.random.between(0.72, 0.86)};
+    paint_sail_boat(canvas,
+                    boat,
+                    s.random.between(0.16, 0.34),
+                    oklch(0.72, 0.2, s.hue),
+                    oklch(0.4, 0.1, s.hue + 0.4),
+                    s.sky);
     return {"Islands " + s.sky.when(), {"sea", "islands", s.sky.tag()}};
 }
 

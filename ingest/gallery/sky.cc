@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ingest/gallery/field.h"
 #include "ingest/gallery/noise.h"
 
 namespace haarmony::gallery {
@@ -103,23 +104,30 @@ void paint_sun(Canvas& canvas, const Sky& sky) {
 void paint_clouds(Canvas& canvas, const Sky& sky, double horizon) {
     const double threshold = mix(0.34, -0.32, sky.cloudiness);
     const double softness = sky.hour == Hour::kStorm ? 0.55 : 0.34;
-    const Point light = sky.sun;
-    const int last = std::min(canvas.height(),
-                              static_cast<int>((horizon + 0.02) * canvas.height()) + 1);
+    // A layer of clouds seen in perspective: it thins out towards the horizon.
+    const auto overhead = [&](Point p) {
+        const double depth = 1 / (0.10 + std::max(0.0, horizon - p.y));
+        return Point{(p.x - 0.7) * depth * 0.62, depth * 0.85};
+    };
+    const Field mass(canvas.frame(), horizon, [&](Point p) {
+        const Point q = overhead(p);
+        return fbm(q.x, q.y, 5, sky.seed) - threshold;
+    });
+    const Field towards_light(canvas.frame(), horizon, [&](Point p) {
+        const Point q = overhead(p);
+        const double aside = clamp((sky.sun.x - p.x) * 0.35, -0.22, 0.22);
+        return fbm(q.x + aside, q.y + 0.18, 3, sky.seed);
+    });
+    const int last =
+        std::min(canvas.height(), static_cast<int>(clamp01(horizon) * canvas.height()));
     for (int y = 0; y < last; ++y) {
+        const double near = smoothstep(0.0, 0.22, horizon - canvas.point(0, y).y);
         for (int x = 0; x < canvas.width(); ++x) {
-            const Point p = canvas.point(x, y);
-            // A layer of clouds seen in perspective: it thins out towards the horizon.
-            const double depth = 1 / (0.10 + std::max(0.0, horizon - p.y));
-            const double u = (p.x - 0.7) * depth * 0.62;
-            const double v = depth * 0.85;
-            const double density = fbm(u, v, 5, sky.seed) - threshold;
-            const double near = smoothstep(0.0, 0.22, horizon - p.y);
-            if (density <= 0 || near <= 0) continue;
-            const double du = (light.x - p.x) * 0.35;
-            const double towards = fbm(u + clamp(du, -0.22, 0.22), v + 0.18, 3, sky.seed);
-            const double lit = clamp01(0.62 + 1.25 * (density + threshold - towards));
-            const Point d = p - light;
+            const double density = mass.at(x, y);
+            if (density <= 0) continue;
+            const double lit =
+                clamp01(0.62 + 1.25 * (density + threshold - towards_light.at(x, y)));
+            const Point d = canvas.point(x, y) - sky.sun;
             const double rim = exponential(-6 * (d.x * d.x + d.y * d.y));
             const Color c =
                 mix(sky.cloud_dark, sky.cloud_lit, clamp01(lit + 0.35 * rim)) +
@@ -204,10 +212,11 @@ Sky make_sky(Random& random, Hour hour, double aspect, double horizon) {
 }
 
 void paint_sky(Canvas& canvas, const Sky& sky, double horizon, Random& random) {
-    canvas.cover([&](Point p) {
-        const double t = clamp01(p.y / horizon);
-        return sky.ramp.at(t * t * 0.35 + t * 0.65);
-    });
+    for (int y = 0; y < canvas.height(); ++y) {
+        const double t = clamp01(canvas.point(0, y).y / horizon);
+        const Color c = sky.ramp.at(t * t * 0.35 + t * 0.65);
+        for (int x = 0; x < canvas.width(); ++x) canvas.set(x, y, c);
+    }
     if (sky.dark()) paint_stars(canvas, horizon, random);
     if (sky.aurora) paint_aurora(canvas, horizon, random);
     paint_sun(canvas, sky);

@@ -23,9 +23,9 @@ struct Table {
 
 void wall(Table& t) {
     const Color paint =
-        oklch(t.dark ? t.random.between(0.2, 0.34) : t.random.between(0.55, 0.86),
-              t.random.between(0.06, 0.13),
-              t.hue + 0.5);
+        oklch({t.dark ? t.random.between(0.2, 0.34) : t.random.between(0.55, 0.86),
+               t.random.between(0.06, 0.13),
+               t.hue + 0.5});
     const std::uint32_t seed = t.random.noise_seed();
     const int manner = t.random.below(4);
     const Color second = shade_of(paint, t.dark ? 1.25 : 0.86);
@@ -51,9 +51,9 @@ void board(Table& t) {
     const bool cloth = t.random.chance(0.5);
     const int check = t.random.below(3);
     const Color wood =
-        oklch(t.random.between(0.4, 0.62), 0.08, t.random.between(0.12, 0.2));
+        oklch({t.random.between(0.4, 0.62), 0.08, t.random.between(0.12, 0.2)});
     const Color linen =
-        oklch(t.random.between(0.8, 0.95), 0.05, t.hue + t.random.between(-0.1, 0.3));
+        oklch({t.random.between(0.8, 0.95), 0.05, t.hue + t.random.between(-0.1, 0.3)});
     const Color stripe = oklch(0.55, 0.17, t.hue + t.random.pick({0.0, 0.33, 0.5}));
     const std::uint32_t seed = t.random.noise_seed();
     const double aspect = t.canvas.aspect();
@@ -146,8 +146,8 @@ void bowl_of(Table& t, Point at, double half, Fruit fruit, Fruit second) {
                                      half * 0.07 * sine(kPi * i / 8)});
     for (const double y : {0.12, 0.4, 0.7})
         outline.push_back(at + Point{half * (0.5 + 0.5 * power(y, 0.6)), -height * y});
-    const Color body =
-        oklch(t.random.between(0.5, 0.9), 0.12, t.hue + t.random.pick({0.0, 0.4, 0.55}));
+    const Color body = oklch(
+        {t.random.between(0.5, 0.9), 0.12, t.hue + t.random.pick({0.0, 0.4, 0.55})});
     const Color decor = shade_of(body, 0.6);
     const int pattern = t.random.below(3);
     t.canvas.shade(cover_polygon(t.canvas.frame(), outline), 1, [&](Point p) {
@@ -173,23 +173,21 @@ constexpr std::array<std::array<double, 6>, 5> kVaseShapes = {
      {0.5, 0.6, 0.85, 1.0, 0.7, 0.6},
      {0.95, 1.0, 1.0, 0.98, 0.4, 0.36}}};
 
-// A vase of some shape; returns the middle of its mouth.
-Point vase(Table& t, Point at, double height, double half, Glaze glaze) {
+// A vase of some shape and glaze.
+void vase(Table& t, Point at, double height, double half) {
     std::vector<double> widths;
     for (const double w :
          t.random.pick(std::span<const std::array<double, 6>>(kVaseShapes)))
         widths.push_back(w * half);
     paint_cast_shadow(t.canvas, t.lamp, at, half * 0.8, height);
-    const Color body = oklch(t.random.between(0.35, 0.82),
-                             0.13,
-                             t.hue + t.random.pick({0.0, 0.5, 0.33, 0.15}));
+    const Color body = oklch({t.random.between(0.35, 0.82),
+                              0.13,
+                              t.hue + t.random.pick({0.0, 0.5, 0.33, 0.15})});
     const Color decor =
         t.random.chance(0.5) ? Color{0.85, 0.83, 0.78} : shade_of(body, 0.5);
+    const auto glaze = static_cast<Glaze>(t.random.below(kGlazes));
     paint_vessel(t.canvas, t.lamp, at, {widths, height}, glaze, body, decor);
-    return at - Point{0, height};
 }
-
-Glaze any_glaze(Random& random) { return static_cast<Glaze>(random.below(5)); }
 
 Label fruit_bowl(Canvas& canvas, Commission& commission) {
     Table t = lay(canvas, commission);
@@ -198,12 +196,10 @@ Label fruit_bowl(Canvas& canvas, Commission& commission) {
         fruit == Fruit::kGrapes || fruit == Fruit::kMelon ? Fruit::kApple : fruit;
     const double x = canvas.aspect() * t.random.between(0.4, 0.6);
     const double half = 0.27 * std::min(1.2, canvas.aspect());
-    if (t.random.chance(0.6))
-        vase(t,
-             {x + t.random.sign() * half * 1.15, t.edge + 0.07},
-             t.random.between(0.36, 0.5),
-             0.09,
-             any_glaze(t.random));
+    if (t.random.chance(0.6)) {
+        const Point at{x + t.random.sign() * half * 1.15, t.edge + 0.07};
+        vase(t, at, t.random.between(0.36, 0.5), 0.09);
+    }
     bowl_of(t,
             {x, t.edge + 0.17},
             half,
@@ -226,7 +222,7 @@ Label vase_of_flowers(Canvas& canvas, Commission& commission) {
     const Point mouth{foot.x, foot.y - height};
     const Color green =
         oklch(0.48, 0.11, kGreen) * (t.lamp.light * 0.7 + t.lamp.shade * 0.3);
-    const double reach = 0.34 * std::min(1.1, canvas.aspect());
+    const double reach = std::min(0.34 * std::min(1.1, canvas.aspect()), mouth.y - 0.09);
     const int count = 9 + t.random.below(6);
     std::vector<Point> heads;
     for (int i = 0; i < count; ++i) {
@@ -237,13 +233,15 @@ Label vase_of_flowers(Canvas& canvas, Commission& commission) {
         const Point way[] = {mouth, (mouth + head) * 0.5 + Point{0, -0.02}, head};
         canvas.taper(smooth_path(way, 8), 0.006, 0.004, green);
     }
-    for (int i = 0; i < 12; ++i)
+    for (int i = 0; i < 12; ++i) {
+        const double angle = t.random.between(-1.7, 1.7);
         paint_leaf(canvas,
                    mouth - Point{0, 0.02},
-                   t.random.between(-1.7, 1.7),
+                   angle,
                    reach * t.random.between(0.5, 0.9),
                    0.36,
                    green);
+    }
     const auto first = static_cast<Species>(commission.turn % kSpecies);
     const auto second = static_cast<Species>((commission.turn * 3 + 2) % kSpecies);
     for (std::size_t i = 0; i < heads.size(); ++i)
@@ -254,8 +252,9 @@ Label vase_of_flowers(Canvas& canvas, Commission& commission) {
             t.random.between(0.065, 0.115),
             commission.hue + (i % 3 == 0 ? 0.3 : 0.04 * static_cast<double>(i % 4)),
             t.random);
-    vase(t, foot, height, t.random.between(0.1, 0.14), any_glaze(t.random));
-    for (int i = 0; i < t.random.below(4); ++i)
+    vase(t, foot, height, t.random.between(0.1, 0.14));
+    const int fruits = t.random.below(4);
+    for (int i = 0; i < fruits; ++i)
         place_fruit(t,
                     fruit_of(commission, 0),
                     {foot.x + (i - 1) * 0.2 + 0.1, foot.y + 0.1},
@@ -269,12 +268,10 @@ Label row_of_vessels(Canvas& canvas, Commission& commission) {
     for (int i = 0; i < count; ++i) {
         const double height = t.random.between(0.18, 0.52);
         t.hue = commission.hue + 0.11 * i;
-        vase(t,
-             {canvas.aspect() * (i + 0.5 + t.random.between(-0.15, 0.15)) / count,
-              t.edge + t.random.between(0.06, 0.13)},
-             height,
-             t.random.between(0.055, 0.1),
-             any_glaze(t.random));
+        const Point at{
+            canvas.aspect() * (i + 0.5 + t.random.between(-0.15, 0.15)) / count,
+            t.edge + t.random.between(0.06, 0.13)};
+        vase(t, at, height, t.random.between(0.055, 0.1));
     }
     for (int i = 0; i < 3; ++i)
         place_fruit(t,
@@ -314,7 +311,7 @@ Label by_candle(Canvas& canvas, Commission& commission) {
     const Color wax = oklch(t.random.between(0.6, 0.92), 0.1, commission.hue);
     const double beside = t.random.sign();
     t.lamp.side = -beside;
-    vase(t, {x + beside * 0.3, t.edge + 0.1}, 0.34, 0.1, any_glaze(t.random));
+    vase(t, {x + beside * 0.3, t.edge + 0.1}, 0.34, 0.1);
     for (int i = 0; i < candles; ++i) {
         const Point at{x + (i - (candles - 1) / 2.0) * 0.12,
                        t.edge + 0.13 + 0.03 * (i % 2)};

@@ -23,13 +23,14 @@ struct Range {
     double snow = 0;         // 0 none .. 1 down to the valley
     Color rock = {};
     Color grass = {};  // of the foot
+    double floor = 2;  // nothing is painted below it: something nearer hides it
     std::uint32_t seed = 0;
 
     // y of its crest at x.
     [[nodiscard]] double crest(double x) const;
 };
 
-// Covers everything below the crest.
+// Covers everything between crest and floor.
 void paint_range(Canvas& canvas, const Sky& sky, const Range& range);
 
 struct Hill {
@@ -39,6 +40,7 @@ struct Hill {
     Color lit = {};
     Color shaded = {};
     double texture = 1;  // of grass, 0 = smooth
+    double floor = 2;    // as of a range
     std::uint32_t seed = 0;
 
     [[nodiscard]] double crest(double x) const;

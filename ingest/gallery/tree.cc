@@ -250,10 +250,9 @@ Label herbarium(Canvas& canvas, Commission& commission) {
     for (int i = 0; i < count; ++i) {
         const Kindred& kin = kindred(2 + (commission.turn + i) % 3);
         const Point foot{canvas.aspect() * (i + 0.5) / count, 0.96};
-        const Plant plant = fitted(plant_of(kin, random),
-                                   foot,
-                                   canvas.aspect() / count * 1.25,
-                                   random.between(0.7, 0.88));
+        const Plant wild = plant_of(kin, random);
+        const Plant plant =
+            fitted(wild, foot, canvas.aspect() / count * 1.25, random.between(0.7, 0.88));
         const Color green =
             oklch(dark ? 0.62 : 0.42, 0.11, kGreen + random.between(-0.06, 0.06));
         draw_wood(canvas, plant, 0.007, shade_of(green, 1.2), green);
@@ -276,7 +275,7 @@ Label undergrowth(Canvas& canvas, Commission& commission) {
                        random.between(-0.1, 0.25)};
     canvas.cover([&](Point p) { return air.at(length(p - source) * 0.95); });
     const Kindred& fern = kindred(4);
-    constexpr int kFerns = 8;
+    constexpr int kFerns = 6;
     for (int i = 0; i < kFerns; ++i) {
         const double t = (i + 0.5) / kFerns;
         const Point foot{canvas.aspect() * fraction(0.2 + i * 0.618), 1.08};
@@ -288,7 +287,7 @@ Label undergrowth(Canvas& canvas, Commission& commission) {
         };
         const Color c = mix(
             air.at(0.3),
-            oklch(random.between(0.36, 0.6), 0.14, green + random.between(-0.05, 0.05)),
+            oklch({random.between(0.36, 0.6), 0.14, green + random.between(-0.05, 0.05)}),
             0.2 + 0.8 * t);
         const Color pale = shade_of(c, 1.15);
         for (const Twig& twig : plant.twigs)
@@ -300,14 +299,15 @@ Label undergrowth(Canvas& canvas, Commission& commission) {
             draw_leaf(canvas,
                       place(plant.buds[k].at),
                       plant.buds[k].heading + lean,
-                      0.026 * height,
+                      0.047 * height,
                       k % 2 == 0 ? c : pale);
     }
     for (int i = 0; i < 5; ++i) {
         const Point at{canvas.aspect() * random.between(0.1, 0.9),
                        random.between(0.55, 0.92)};
+        const auto species = static_cast<Species>(random.below(kSpecies));
         paint_blossom(canvas,
-                      static_cast<Species>(random.below(kSpecies)),
+                      species,
                       at,
                       random.between(0.03, 0.08),
                       commission.hue + 0.4,

@@ -111,24 +111,31 @@ void apply(const Varnish& varnish, Canvas& canvas) {
 
 std::vector<std::uint8_t> to_bytes(const Varnish& varnish, const Canvas& canvas) {
     const auto& curve = display_curve();
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(static_cast<std::size_t>(canvas.width()) * canvas.height() * 3);
-    const auto display = [&](double light) {
-        const double position = std::sqrt(clamp(light, 0, kWhite) / kWhite) * kCurveSteps;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(canvas.width()) *
+                                    canvas.height() * 3);
+    const auto scale = static_cast<float>(kCurveSteps * kCurveSteps / kWhite);
+    const auto white = static_cast<float>(kWhite);
+    const auto display = [&](double value) {
+        const float light = std::clamp(static_cast<float>(value), 0.0F, white);
+        const float position = std::sqrt(light * scale);
         const int step = std::min(static_cast<int>(position), kCurveSteps - 1);
         const auto i = static_cast<std::size_t>(step);
-        return mix(curve[i], curve[i + 1], position - step);
+        return curve[i] +
+               (curve[i + 1] - curve[i]) * (position - static_cast<float>(step));
     };
+    // The sum of two uniform values is a triangle, whose deviation is 0.41.
+    const auto strength = static_cast<float>(varnish.grain * 255 / 0.41 * 0x1.0p-16);
+    std::uint8_t* next = bytes.data();
     for (int y = 0; y < canvas.height(); ++y) {
         for (int x = 0; x < canvas.width(); ++x) {
             const Color c = canvas.at(x, y);
-            // The sum of two uniform values is a triangle, whose deviation is 0.41.
-            const double speck = lattice_unit(x, y, varnish.seed) +
-                                 lattice_unit(x, y, varnish.seed + 1) - 1;
-            const double grain = speck * (varnish.grain * 255 / 0.41);
+            const std::uint32_t chance = lattice_hash(x, y, varnish.seed);
+            const int speck = static_cast<int>(chance & 0xFFFF) +
+                              static_cast<int>(chance >> 16) - 0xFFFF;
+            const float grain = static_cast<float>(speck) * strength + 0.5F;
             for (const double light : {c.r, c.g, c.b})
-                bytes.push_back(static_cast<std::uint8_t>(
-                    clamp(display(light) + grain + 0.5, 0, 255)));
+                *next++ = static_cast<std::uint8_t>(
+                    std::clamp(display(light) + grain, 0.0F, 255.0F));
         }
     }
     return bytes;

@@ -40,7 +40,7 @@ class CommandLine : public testing::Test {
 TEST_F(CommandLine, SaysInOneLineWhatItWrote) {
     const std::string folder = (root_ / "new").string();
     const std::vector<std::string> arguments{
-        "--out", folder, "--count", "2", "--jobs", "1"};
+        "--out", folder, "--count", "2", "--jobs", "1", "--side", "40"};
     EXPECT_EQ(call(arguments), 0);
     EXPECT_EQ(out_.str(), "wrote 2 pictures to " + folder + "\n");
     EXPECT_THAT(err_.str(), IsEmpty());
@@ -50,9 +50,16 @@ TEST_F(CommandLine, SaysInOneLineWhatItWrote) {
 
 TEST_F(CommandLine, AnotherSeedMakesOtherFiles) {
     const std::string folder = (root_ / "seeds").string();
-    EXPECT_EQ(call({"--out", folder, "--count", "1", "--seed", "18446744073709551615"}),
+    EXPECT_EQ(call({"--out",
+                    folder,
+                    "--side",
+                    "40",
+                    "--count",
+                    "1",
+                    "--seed",
+                    "18446744073709551615"}),
               0);
-    EXPECT_EQ(call({"--out", folder, "--count", "1", "--seed", "2"}), 0);
+    EXPECT_EQ(call({"--out", folder, "--side", "40", "--count", "1", "--seed", "2"}), 0);
     EXPECT_EQ(out_.str(), "wrote 1 pictures to " + folder + "\n");
 }
 
@@ -71,12 +78,16 @@ TEST_F(CommandLine, BadValuesAreNamedWithExitCodeTwo) {
         {"--out", folder, "--count", "many"},
         {"--out", folder, "--jobs", "0"},
         {"--out", folder, "--jobs", "257"},
+        {"--out", folder, "--side", "15"},
+        {"--out", folder, "--side", "4097"},
+        {"--out", folder, "--side", "wide"},
         {"--out", folder, "--seed", "-1"},
         {"--out", folder, "--seed", "red"},
         {"--out", folder, "surplus"},
         {"--out", folder, "--shape"},
     };
     for (const auto& arguments : bad) {
+        SCOPED_TRACE(arguments[arguments.size() - 2] + " " + arguments.back());
         EXPECT_EQ(call(arguments), 2) << arguments.back();
         EXPECT_THAT(err_.str(), HasSubstr(arguments.back()));
         EXPECT_THAT(out_.str(), IsEmpty());
@@ -94,7 +105,7 @@ TEST_F(CommandLine, TheFolderMustBeNamed) {
 TEST_F(CommandLine, AFolderThatCannotBeMadeIsExitCodeThree) {
     std::ofstream(root_ / "file") << "in the way";
     const std::string folder = (root_ / "file" / "gallery").string();
-    EXPECT_EQ(call({"--out", folder, "--count", "1"}), 3);
+    EXPECT_EQ(call({"--out", folder, "--count", "1", "--side", "40"}), 3);
     EXPECT_THAT(err_.str(), HasSubstr(folder));
     const std::string said = err_.str();
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;

@@ -162,8 +162,26 @@ TEST(Coverage, StrokesAgreeWithSampling) {
         }
         return false;
     };
-    // Where two segments meet at an angle the larger coverage stands for their union.
-    expect_coverage(cover_stroke(kFrame, points, radii), inside, 0.13);
+    // Where two segments meet at an angle the larger coverage stands for their union: at
+    // worst, in the inner corner, half of either is half of it instead of three quarters.
+    expect_coverage(cover_stroke(kFrame, points, radii), inside, 0.25);
+}
+
+TEST(Coverage, AStraightStrokeIsACapsule) {
+    const Point a{0.3, 0.25};
+    const Point b{1.1, 0.7};
+    const std::vector<Point> points{a, (a + b) * 0.5, b};
+    const std::vector<double> radii{0.09, 0.09, 0.09};
+    expect_coverage(
+        cover_stroke(kFrame, points, radii),
+        [&](Point p) {
+            const Point d = b - a;
+            const Point q = p - a;
+            const double t =
+                std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
+            return length(q - d * t) <= 0.09;
+        },
+        0.08);
 }
 
 TEST(Coverage, ATaperIsWideAtOneEndAndThinAtTheOther) {

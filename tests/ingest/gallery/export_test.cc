@@ -5,14 +5,18 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <span>
 #include <string>
 #include <thread>
 
+#include "ingest/decode.h"
 #include "ingest/gallery/gallery.h"
 
 namespace haarmony::gallery {
@@ -30,7 +34,11 @@ class Export : public testing::Test {
     ~Export() override { fs::remove_all(root_); }
 
     [[nodiscard]] ExportOptions options(int count) const {
-        return {.folder = root_ / "a" / "b", .seed = 1, .count = count, .jobs = 2};
+        return {.folder = root_ / "a" / "b",
+                .seed = 1,
+                .count = count,
+                .jobs = 2,
+                .side = 40};
     }
     // Name to content.
     [[nodiscard]] std::map<std::string, std::string> files(const fs::path& folder) const {
@@ -60,6 +68,23 @@ TEST_F(Export, WritesOneNamedJpegAPicture) {
         EXPECT_EQ(found->second.substr(0, 3), "\xFF\xD8\xFF");
         EXPECT_EQ(found->second.substr(found->second.size() - 2), "\xFF\xD9");
     }
+}
+
+TEST_F(Export, PicturesHaveTheSideThatIsAskedForOrTheGallerys) {
+    ExportOptions gallery = options(1);
+    gallery.folder = root_ / "gallery";
+    gallery.side.reset();
+    ASSERT_TRUE(export_gallery(options(1)));
+    ASSERT_TRUE(export_gallery(gallery));
+    const auto longest_side = [&](const fs::path& folder) {
+        const std::string jpeg = files(folder).begin()->second;
+        const std::span bytes(reinterpret_cast<const std::uint8_t*>(jpeg.data()),
+                              jpeg.size());
+        const auto picture = ingest::Decoder({}).decode(bytes);
+        return picture ? std::max(picture->width, picture->height) : 0;
+    };
+    EXPECT_EQ(longest_side(options(1).folder), 40);
+    EXPECT_EQ(longest_side(gallery.folder), gallery_side(1, 0));
 }
 
 TEST_F(Export, NamesCountFromOneAndHaveNoBlanks) {
@@ -171,7 +196,7 @@ class FileLimit {
 };
 
 TEST_F(Export, APictureThatDoesNotFitOnTheDiskLeavesNothingBehind) {
-    const FileLimit limit(4096);
+    const FileLimit limit(256);
     const auto report = export_gallery(options(2));
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::kIo);
