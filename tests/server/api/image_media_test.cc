@@ -85,7 +85,7 @@ TEST_F(ImageMediaTest, AFileOutsideIsForbiddenHoweverItIsReached) {
     const auto linked = other_->images().add(
         file_row(1, ingest::file_uri(folder_.file("root/link.jpg"))));
     ASSERT_TRUE(linked);
-    for (const std::string address :
+    for (const std::string& address :
          {outside, "/images/" + std::to_string(to_int(linked.value())) + "/original"}) {
         const http::Response response = interface_.get(address);
         EXPECT_EQ(refusal_of(response), (Refusal{403, "forbidden", ""}));
