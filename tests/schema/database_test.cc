@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "schema/image_store.h"
+#include "tests/schema/failing_files.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/schema/scratch_folder.h"
@@ -59,6 +60,43 @@ TEST(Database, OpeningAnExistingOneChangesNothing) {
     { const Database database = open_database(path); }
     { const auto reader = expect(Database::open(path, Mode::kReadOnly)); }
     EXPECT_EQ(files_of(folder).at("x.db"), before.at("x.db"));
+}
+
+// A database of the current version that was not yet switched to write-ahead logging, as
+// between the two steps of its creation.
+void make_without_log(const std::string& path) {
+    { const Database database = open_database(path); }
+    const RawConnection connection(path);
+    run_sql(connection.handle(), "PRAGMA journal_mode = DELETE");
+}
+
+TEST(Database, TheSwitchToTheLogWaitsForAnotherWriter) {
+    FailingFiles files;
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    make_without_log(path);
+    const RawConnection writer(path);
+    run_sql(writer.handle(), "BEGIN IMMEDIATE");
+    bool released = false;
+    files.when_lock_is_refused(3, [&] {
+        run_sql(writer.handle(), "ROLLBACK");
+        released = true;
+    });
+    const Database database = open_database(path);
+    EXPECT_TRUE(released);
+    EXPECT_EQ(sql_text(database.handle(), "PRAGMA journal_mode"), "wal");
+}
+
+TEST(Database, AWriterWhoNeverEndsMakesItUnavailable) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("x.db");
+    make_without_log(path);
+    const RawConnection writer(path);
+    run_sql(writer.handle(), "BEGIN IMMEDIATE");
+    const auto result = Database::open(path, Mode::kReadWriteCreate);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kUnavailable) << result.error().message;
+    EXPECT_NE(result.error().message.find(path), std::string::npos);
 }
 
 TEST(Database, AReadOnlyConnectionReadsAndRefusesToWrite) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <new>
+#include <utility>
 
 namespace haarmony::schema {
 namespace {
@@ -16,6 +17,8 @@ sqlite3_vfs shim{};
 int remaining = kNever;
 int failure = SQLITE_OK;
 bool has_failed = false;
+int refusals_to_come = 0;
+std::function<void()> after_refusals;
 
 // SQLITE_OK, or the failure when its time has come.
 int count_down() {
@@ -64,7 +67,11 @@ int file_size(sqlite3_file* file, sqlite3_int64* size) {
     return real_of(file)->pMethods->xFileSize(real_of(file), size);
 }
 int lock(sqlite3_file* file, int level) {
-    return real_of(file)->pMethods->xLock(real_of(file), level);
+    const int result = real_of(file)->pMethods->xLock(real_of(file), level);
+    if (result == SQLITE_BUSY && refusals_to_come > 0 && --refusals_to_come == 0) {
+        after_refusals();
+    }
+    return result;
 }
 int unlock(sqlite3_file* file, int level) {
     return real_of(file)->pMethods->xUnlock(real_of(file), level);
@@ -148,6 +155,7 @@ FailingFiles::FailingFiles() {
 }
 
 FailingFiles::~FailingFiles() {
+    refusals_to_come = 0;
     sqlite3_vfs_unregister(&shim);
     sqlite3_vfs_register(real, 1);
 }
@@ -159,6 +167,11 @@ void FailingFiles::fail_from(int operation, int result_code) {
 }
 
 void FailingFiles::never_fail() { remaining = kNever; }
+
+void FailingFiles::when_lock_is_refused(int times, std::function<void()> act) {
+    refusals_to_come = times;
+    after_refusals = std::move(act);
+}
 
 bool FailingFiles::failed() const { return has_failed; }
 

@@ -4,6 +4,8 @@
 // Threads  one.
 #pragma once
 
+#include <functional>
+
 namespace haarmony::schema {
 
 class FailingFiles {
@@ -17,6 +19,8 @@ class FailingFiles {
     // on, all of them fail with `result_code`.
     void fail_from(int operation, int result_code);
     void never_fail();
+    // Calls `act` once, when the lock of a file has been refused that many times.
+    void when_lock_is_refused(int times, std::function<void()> act);
     // Whether the countdown came to its end since fail_from().
     [[nodiscard]] bool failed() const;
 };

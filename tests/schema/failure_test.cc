@@ -156,6 +156,38 @@ TEST(Failure, AtAnyStepOfABatchAllOfItIsThereOrNothing) {
     }
 }
 
+// A failed write may make SQLite roll back the whole transaction and go on without one:
+// what the caller adds next must not be committed by itself.
+TEST(Failure, WhatFollowsALostTransactionIsRefused) {
+    FailingFiles files;
+    const ScratchFolder folder;
+    Database database = open_database(folder.file("x.db"));
+    run_sql(database.handle(), "PRAGMA cache_size = 2");
+    ImageStore store(database);
+    add_pictures(store, 1);
+    const auto result = store.transaction([&]() -> Result<void> {
+        files.fail_from(0, SQLITE_IOERR_WRITE);
+        int number = 1;
+        while (store.add(file_picture(number)) && number < 1000) ++number;
+        files.never_fail();
+        EXPECT_NE(sqlite3_get_autocommit(database.handle()), 0);
+        const auto late = store.add(file_picture(2000));
+        EXPECT_FALSE(late);
+        if (!late) {
+            EXPECT_EQ(late.error().code, ErrorCode::kIo);
+            EXPECT_NE(late.error().message.find("rolled back by an earlier failure"),
+                      std::string::npos)
+                << late.error().message;
+        }
+        return {};
+    });
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().message.find("rolled back"), std::string::npos)
+        << result.error().message;
+    EXPECT_EQ(expect(store.counts()).indexed, 1);
+    EXPECT_TRUE(store.add(file_picture(3000)));
+}
+
 TEST(Failure, AFullDiskIsSaidAndTheStoreGoesOnWhenThereIsRoom) {
     const ScratchFolder folder;
     Database database = open_database(folder.file("x.db"));
