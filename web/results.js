@@ -8,7 +8,7 @@ import { nameOf, percent } from './wording.js';
 
 /** @typedef {import('./api.js').Match} Match */
 
-const kGlideMs = 260;
+const kGlideMs = 180;
 
 export class Results {
   #grid = byId('grid', HTMLOListElement);

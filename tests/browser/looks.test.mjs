@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { kArtifacts, openBrowser, paintStroke } from './support/browser.mjs';
+import { keepScreenshot, openBrowser, paintStroke } from './support/browser.mjs';
 import { FakeServer } from './support/fake_server.mjs';
 
 const server = new FakeServer();
@@ -29,9 +29,9 @@ for (const [name, options] of kViews) {
       await page.locator('#samples img').first().waitFor();
       await fitsAndReads(page, `${name}, first screen`);
       await paintStroke(page, [[0.1, 0.2], [0.9, 0.8]]);
-      await page.locator('#grid > li').nth(19).waitFor();
+      await page.waitForURL(/signature=/); // the last results, not those of half a stroke
       await fitsAndReads(page, `${name}, results`);
-      await page.screenshot({ path: `${kArtifacts}look-${name}.png` });
+      await keepScreenshot(page, `look-${name}`);
       await page.locator('.card-picture').nth(1).click();
       await page.locator('#asked-picture').waitFor();
       await fitsAndReads(page, `${name}, like a picture`);
@@ -165,7 +165,21 @@ test('with reduced motion nothing glides', async () => {
 async function fitsAndReads(page, where) {
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wide <= 0, `${where}: the page is ${wide} px too wide`);
+  assert.deepEqual(await page.evaluate(overlaps), [], `${where}: parts lie over each other`);
   assert.deepEqual(await page.evaluate(faintTexts), [], `${where}: contrast below WCAG AA`);
+}
+
+/** Controls of the painting side that lie over the results side. Runs in the page. */
+function overlaps() {
+  const findings = document.querySelector('.findings')?.getBoundingClientRect();
+  if (!findings || scrollY > 0) return []; // where they are stacked, results scroll below
+  const parts = [...document.querySelectorAll('.studio canvas, .studio .tool, .studio .custom, .studio .button')];
+  return parts
+    .filter((part) => {
+      const box = part.getBoundingClientRect();
+      return box.right > findings.left && box.bottom > findings.top && box.top < findings.bottom;
+    })
+    .map((part) => part.id || part.className);
 }
 
 /**

@@ -9,7 +9,7 @@ import { chromium } from 'playwright-core';
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('playwright-core').BrowserContextOptions} BrowserContextOptions */
 
-export const kArtifacts = fileURLToPath(new URL('../../../build/artifacts/', import.meta.url));
+const kArtifacts = fileURLToPath(new URL('../../../build/artifacts/', import.meta.url));
 
 const kArguments = [
   '--no-sandbox',
@@ -52,6 +52,19 @@ export async function openBrowser(options = {}) {
     rmSync(profile, { recursive: true, force: true });
   };
   return { context, page, complaints, close };
+}
+
+/**
+ * A picture of the page at rest: thumbnails loaded, nothing gliding.
+ * @param {Page} page
+ * @param {string} name
+ */
+export async function keepScreenshot(page, name) {
+  await page.waitForFunction(() => {
+    const visible = [...document.images].filter((image) => image.checkVisibility() && image.src !== '');
+    return document.getAnimations().length === 0 && visible.every((image) => image.complete);
+  });
+  await page.screenshot({ path: `${kArtifacts}${name}.png` });
 }
 
 /** @typedef {[number, number]} Share a place on the canvas, in [0, 1] each way */
