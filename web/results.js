@@ -30,17 +30,33 @@ export class Results {
   show(matches) {
     const places = this.#places();
     this.matches = matches;
-    const cards = matches.map((match) => this.#cards.get(match.id) ?? new Card(this.#loader));
+    const cards = this.#cardsFor(matches, places);
     this.#cards = new Map(matches.map((match, i) => [match.id, cards[i]]));
     cards.forEach((card, i) => card.fill(matches[i], () => this.#port.open(i), this.#port.like));
-    // replaceChildren() would take the focus away from a card that stays.
+    const focused = document.activeElement;
     cards.forEach((card, i) => {
       const at = this.#grid.children[i];
       if (at !== card.element) this.#grid.insertBefore(card.element, at ?? null);
     });
     while (this.#grid.children.length > cards.length) this.#grid.lastElementChild?.remove();
     this.#grid.hidden = false;
+    // An element that is moved loses the focus.
+    if (focused instanceof HTMLElement && this.#grid.contains(focused)) {
+      focused.focus({ preventScroll: true });
+    }
     this.#glide(places);
+  }
+
+  /**
+   * The card of a picture that is still there, else one that has become free, else a new one.
+   * @param {Match[]} matches
+   * @param {Map<Card, DOMRect>} places loses the cards that change their picture
+   */
+  #cardsFor(matches, places) {
+    const ids = new Set(matches.map(({ id }) => id));
+    const free = [...this.#cards].filter(([id]) => !ids.has(id)).map(([, card]) => card);
+    for (const card of free) places.delete(card);
+    return matches.map(({ id }) => this.#cards.get(id) ?? free.pop() ?? new Card(this.#loader));
   }
 
   hide() {
@@ -78,8 +94,7 @@ export class Results {
 }
 
 class Card {
-  #image = make('img', { alt: '', decoding: 'async', draggable: false });
-  #link = make('a', { className: 'card-picture' }, this.#image);
+  #link = make('a', { className: 'card-picture' });
   #open = make('button', { type: 'button', className: 'card-open' }, icon('open'));
   #meter = make('span', { className: 'meter' });
   #share = make('span', { className: 'share' });
@@ -101,7 +116,7 @@ class Card {
   fill(match, open, like) {
     const name = nameOf(match);
     const similarity = percent(match.similarity);
-    this.element.dataset.id = String(match.id);
+    if (this.element.dataset.id !== String(match.id)) this.#picture(match.id);
     this.#link.href = toFragment({ id: match.id, profile: 'scanned' });
     this.#link.title = `${name}: find more like this`;
     this.#link.setAttribute('aria-label', `${match.rank}. ${name}, ${similarity} similar. Find more like it`);
@@ -116,6 +131,16 @@ class Card {
     this.#open.onclick = open;
     this.#meter.style.setProperty('--similarity', String(match.similarity));
     this.#share.textContent = similarity;
-    void this.#loader.show(this.#image, thumbnailAddress(match.id));
+  }
+
+  /**
+   * A new image: one that is reused would show its old picture until the new one is here.
+   * @param {number} id
+   */
+  #picture(id) {
+    this.element.dataset.id = String(id);
+    const image = make('img', { alt: '', decoding: 'async', draggable: false });
+    this.#link.replaceChildren(image);
+    void this.#loader.show(image, thumbnailAddress(id));
   }
 }

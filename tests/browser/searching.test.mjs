@@ -40,7 +40,7 @@ test('the first screen offers pictures of the collection and says how many there
 test('a stroke searches: a small PNG in which the unpainted is transparent', async () => {
   await chooseColor(page, '#0000ff');
   await paintStroke(page, [[0.1, 0.25], [0.9, 0.25]]);
-  await shownResults(20);
+  await waitForAddress(/signature=/); // written for the finished stroke
   const { method, url, headers, body } = server.queries[server.queries.length - 1];
   assert.equal(method, 'POST');
   assert.equal(headers['content-type'], 'image/png');
@@ -175,6 +175,25 @@ test('a shared address shows the same results elsewhere, and says that it is sha
   assert.equal(url.searchParams.get('signature'), signature);
   assert.equal(url.searchParams.get('profile'), 'painted');
   await other.close();
+});
+
+test('a card that stays keeps its element and focus, and each shows its own picture', async () => {
+  await page.locator('#samples a').first().click();
+  const before = await shownResults(20);
+  await page.locator('.card-picture').nth(4).focus();
+  await page.evaluate(() => Object.assign(document.activeElement ?? {}, { marked: true }));
+  await page.keyboard.press('Enter');
+  await waitForFirst(before[4]);
+  const { marked, id } = await page.evaluate(() => {
+    const focused = /** @type {any} */ (document.activeElement);
+    return { marked: focused.marked, id: focused.parentElement.dataset.id };
+  });
+  assert.deepEqual([marked, id], [true, String(before[4])]);
+  const shown = await page
+    .locator('#grid img')
+    .evaluateAll((images) => images.map((image) => image.getAttribute('src')));
+  const ids = await resultIds(page);
+  assert.deepEqual(shown, ids.map((each) => `images/${each}/thumbnail`));
 });
 
 test('the profile can be chosen, and stands in the address', async () => {

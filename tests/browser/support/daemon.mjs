@@ -48,7 +48,7 @@ export class GalleryServer {
       join(this.#bin, 'haarmonyd'),
       [
         ...['--db', this.#database, '--web', kWeb, '--listen', `127.0.0.1:${this.#port}`],
-        ...['--media-root', join(this.#folder, 'pictures')],
+        ...['--media-root', join(this.#folder, 'pictures'), '--log-level', 'warn'],
       ],
       { stdio: ['ignore', 'pipe', 'inherit'] },
     );
