@@ -232,7 +232,8 @@ net::awaitable<void> Session::receive(Exchange& exchange) {
         } else {
             co_await expect_body(parser, match.options->body_limit);
             if (!gone_ && parser.state() == State::kBody) co_await read_body(parser);
-            exchange.costly = match.options->cost_for(request) == Cost::kCostly;
+            exchange.costly = parser.state() == State::kDone &&
+                              match.options->cost_for(request) == Cost::kCostly;
         }
         if (exchange.answered && parser.has_body()) exchange.close = must_linger_ = true;
     }
