@@ -183,7 +183,7 @@ std::vector<Bin> smoothed(const std::vector<Bin>& bins, int width, int height) {
                 }
             }
             const Bin& own = bins[static_cast<std::size_t>(y) * width + x];
-            const float keep = static_cast<float>(smoothstep(2, 32, own.count));
+            const float keep = static_cast<float>(smoothstep(2, 26, own.count));
             wide[static_cast<std::size_t>(y) * width + x] = {
                 own.count * keep + sum.count / 9 * (1 - keep),
                 own.color * keep + sum.color / 9 * (1 - keep)};
@@ -222,7 +222,7 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
         axes.push_back(turned({scale, 0}, tilt + kTurn * i / system.symmetry));
     const Point centre =
         Point{width / 2.0, height / 2.0} - turned(extent.centre * scale, tilt);
-    const int motes = width * height * 4;
+    const int motes = width * height * 3;
     Mote mote;
     for (int i = 0; i < 40; ++i) advance(system, mote, random);
     std::size_t copy = 0;
@@ -248,7 +248,7 @@ Label paint_flame(Canvas& canvas, Commission& commission) {
             const double far = length(canvas.point(x, y) - middle);
             Color c = ground * (1.25 - 0.8 * far);
             if (bin.count > 0.001F) {
-                const double bright = logarithm(1 + bin.count) / logarithm(48);
+                const double bright = logarithm(1 + bin.count) / logarithm(38);
                 const Color tone = ramp.at(bin.color / bin.count);
                 if (on_light) {
                     c = mix(

@@ -10,8 +10,8 @@ namespace haarmony::gallery {
 namespace {
 
 constexpr double kShoulder = 0.75;  // light above this is rolled off
-constexpr double kWhite = 6.0;      // light that becomes display white
-constexpr int kCurveSteps = 4096;
+constexpr double kWhite = 3.0;      // light that becomes display white
+constexpr int kCurveSteps = 8192;
 
 double rolled_off(double light) {
     if (light <= kShoulder) return light;
@@ -23,14 +23,15 @@ double encoded(double light) {
     return light <= 0.0031308 ? 12.92 * light : 1.055 * power(light, 1 / 2.4) - 0.055;
 }
 
-// Display value by the square root of the light, which spaces dark values finely.
+// Display values of evenly spaced light; between them a straight line is off by less than
+// a tenth of a step of the display, even where the curve is steepest.
 const std::array<float, kCurveSteps + 1>& display_curve() {
     static const auto kCurve = [] {
         std::array<float, kCurveSteps + 1> curve{};
         for (int i = 0; i <= kCurveSteps; ++i) {
-            const double root = std::sqrt(kWhite) * i / kCurveSteps;
+            const double light = kWhite * i / kCurveSteps;
             curve[static_cast<std::size_t>(i)] =
-                static_cast<float>(255 * encoded(rolled_off(root * root)));
+                static_cast<float>(255 * encoded(rolled_off(light)));
         }
         return curve;
     }();
@@ -55,6 +56,13 @@ Canvas bright_parts(const Canvas& canvas) {
         }
     }
     return small;
+}
+
+bool any_light(const Canvas& canvas) {
+    for (int y = 0; y < canvas.height(); ++y)
+        for (int x = 0; x < canvas.width(); ++x)
+            if (luminance(canvas.at(x, y)) > 1e-4) return true;
+    return false;
 }
 
 void box_blur(Canvas& canvas, int half) {
@@ -95,7 +103,7 @@ void apply(const Varnish& varnish, Canvas& canvas) {
     const Point middle{canvas.aspect() / 2, 0.5};
     const double corner = middle.x * middle.x + middle.y * middle.y;
     // Sampling four neighbours for nothing would cost as much as the rest.
-    const bool blooms = varnish.bloom > 0;
+    const bool blooms = varnish.bloom > 0 && any_light(spill);
     canvas.rework([&](Point p, const Color& below) {
         Color c = below;
         if (blooms) c = c + spill.sample(p) * varnish.bloom;
@@ -113,11 +121,10 @@ std::vector<std::uint8_t> to_bytes(const Varnish& varnish, const Canvas& canvas)
     const auto& curve = display_curve();
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(canvas.width()) *
                                     canvas.height() * 3);
-    const auto scale = static_cast<float>(kCurveSteps * kCurveSteps / kWhite);
+    const auto scale = static_cast<float>(kCurveSteps / kWhite);
     const auto white = static_cast<float>(kWhite);
-    const auto display = [&](double value) {
-        const float light = std::clamp(static_cast<float>(value), 0.0F, white);
-        const float position = std::sqrt(light * scale);
+    const auto display = [&](double light) {
+        const float position = std::clamp(static_cast<float>(light), 0.0F, white) * scale;
         const int step = std::min(static_cast<int>(position), kCurveSteps - 1);
         const auto i = static_cast<std::size_t>(step);
         return curve[i] +
