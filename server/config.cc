@@ -110,7 +110,7 @@ std::variant<Config, Leave> checked(Flags flags) {
     if (!flags.web.empty()) config.web = std::move(flags.web);
     if (!flags.api_key_file.empty()) config.api_key_file = std::move(flags.api_key_file);
     if (config.database.empty() && !config.healthcheck)
-        return Leave{kExitUsage, "--db FILE is required (see --help)\n"};
+        return Leave{kExitUsage, "haarmonyd: --db FILE is required (see --help)\n"};
     return config;
 }
 

@@ -98,8 +98,9 @@ http::ListenerOptions listener_options(const Config& config) {
     return options;
 }
 
+// In plain words, whatever the log's level: who started the daemon reads it.
 int leave(int exit_code, const Error& error) {
-    log_could_not_run(error.message);
+    std::cerr << "haarmonyd: " << error.message << '\n';
     return exit_code;
 }
 

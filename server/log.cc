@@ -23,10 +23,6 @@ void log_started(std::string_view address, std::string_view database) {
 
 void log_stopped() { spdlog::info("event=stopped"); }
 
-void log_could_not_run(std::string_view reason) {
-    spdlog::critical("event=could_not_run reason={}", log_value(reason));
-}
-
 void log_request(const http::Request& request,
                  int status,
                  std::chrono::microseconds duration) {

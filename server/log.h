@@ -16,7 +16,6 @@ void open_log(const std::string& level);
 
 void log_started(std::string_view address, std::string_view database);
 void log_stopped();
-void log_could_not_run(std::string_view reason);
 
 // For http::Hooks: every finished request, and what a handler let go.
 void log_request(const http::Request& request,

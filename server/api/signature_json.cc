@@ -1,5 +1,6 @@
 #include "server/api/signature_json.h"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -25,6 +26,14 @@ bool is_triple(const json& value) {
     return value.is_array() && value.size() == image::kChannels;
 }
 
+// By size and sign apart: an unsigned number above 2^63 must not wrap around to a small one.
+bool is_signed_index(const json& value) {
+    if (value.is_number_unsigned())
+        return value.get<std::uint64_t>() < image::kCoefficientCount;
+    return value.is_number_integer() &&
+           value.get<std::int64_t>() > -image::kCoefficientCount;
+}
+
 Result<image::OpenSignature> read_open(const json& average, const json& coefficients) {
     image::OpenSignature open;
     if (!is_triple(average)) return refused("average is not an array of 3 numbers");
@@ -37,10 +46,7 @@ Result<image::OpenSignature> read_open(const json& average, const json& coeffici
         if (!coefficients[channel].is_array())
             return refused("coefficients is not an array of 3 arrays");
         for (const json& index : coefficients[channel]) {
-            const bool whole = index.is_number_integer() &&
-                               (index < image::kCoefficientCount) &&
-                               (index > -image::kCoefficientCount);
-            if (!whole)
+            if (!is_signed_index(index))
                 return refused("coefficient " + index.dump().substr(0, 40) +
                                " is not a signed index");
             open.coefficients[channel].push_back(index.get<int>());

@@ -155,11 +155,11 @@ TEST_F(QueryRefusalTest, BadSources) {
 }
 
 TEST_F(QueryRefusalTest, AnIdThatIsNotThereIsNotFound) {
-    expect_problem(interface_.get("/query?id=999"), {404, "not_found", ""});
-    expect_problem(interface_.get("/images/999/similar"), {404, "not_found", ""});
+    expect_problem(interface_.get("/query?id=999"), {404, "not_found", "id"});
+    expect_problem(interface_.get("/images/999/similar"), {404, "not_found", "id"});
     expect_problem(interface_.get("/images/x/similar"), {400, "invalid_argument", "id"});
     interface_.send("DELETE", "/images/1");
-    expect_problem(interface_.get("/query?id=1"), {404, "not_found", ""});
+    expect_problem(interface_.get("/query?id=1"), {404, "not_found", "id"});
 }
 
 TEST_F(QueryRefusalTest, BytesThatAreNoPicture) {
