@@ -1,5 +1,4 @@
-// The things that still lifes are made of: fruit, bowls, vases, bottles, candles, in one
-// light from the upper left or right.
+// The vessels of still lifes: vases, bottles, candles, in the light of one lamp (fruit.h).
 //
 // Units   Points in picture heights; `at` is the middle of where the thing stands.
 // Threads const-safe.
@@ -8,31 +7,9 @@
 #include <span>
 
 #include "ingest/gallery/canvas.h"
-#include "ingest/gallery/random.h"
+#include "ingest/gallery/fruit.h"
 
 namespace haarmony::gallery {
-
-// Where the light comes from and what it looks like.
-struct Lamp {
-    double side = -1;  // -1 from the left, 1 from the right
-    Color light;
-    Color shade;  // what fills the shadows
-};
-
-enum class Fruit {
-    kApple,
-    kMandarin,
-    kLemon,
-    kPear,
-    kPlum,
-    kPeach,
-    kGrapes,
-    kPomegranate,
-    kMelon
-};
-inline constexpr int kFruits = 9;
-
-[[nodiscard]] const char* name_of(Fruit fruit);
 
 // Soft, away from the lamp, of a thing of this half width.
 void paint_cast_shadow(Canvas& canvas,
@@ -40,14 +17,6 @@ void paint_cast_shadow(Canvas& canvas,
                        Point at,
                        double half,
                        double height);
-
-// `size` is its radius. Casts no shadow.
-void paint_fruit(Canvas& canvas,
-                 const Lamp& lamp,
-                 Fruit fruit,
-                 Point at,
-                 double size,
-                 Random& random);
 
 // A turned vessel: half its width at heights from 0 (foot) to 1 (lip), in picture heights.
 struct Profile {
