@@ -293,16 +293,6 @@ Mask without(const Mask& mask, const Mask& other) {
     return rest;
 }
 
-Mask within(const Mask& mask, const Mask& other) {
-    Mask rest = mask;
-    for (int y = 0; y < mask.height; ++y) {
-        for (int x = 0; x < mask.width; ++x)
-            rest.coverage[static_cast<std::size_t>(y) * mask.width + x] *=
-                other.at(mask.left + x, mask.top + y);
-    }
-    return rest;
-}
-
 namespace {
 
 Point catmull_rom(Point a, Point b, Point c, Point d, double t) {

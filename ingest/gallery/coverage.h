@@ -70,8 +70,6 @@ struct Mask {
 
 // The part of `mask` that `other` does not cover.
 [[nodiscard]] Mask without(const Mask& mask, const Mask& other);
-// The part that both cover.
-[[nodiscard]] Mask within(const Mask& mask, const Mask& other);
 
 // A smooth closed outline through the points (Catmull-Rom), `steps` points for each.
 [[nodiscard]] std::vector<Point> smooth_outline(std::span<const Point> points, int steps);

@@ -1,7 +1,7 @@
 // Colours that go together: OKLCH to linear light, ramps, and schemes around one hue.
 //
 // Units   Color is linear light with sRGB primaries, 1 = display white, may exceed 1;
-//         lightness and chroma as in OKLab; hues in turns (kRed .. kPink below).
+//         lightness and chroma as in OKLab; hues in turns (kRed .. kMagenta below).
 // Threads const-safe.
 // Source  Ottosson: A perceptual color space for image processing (2020).
 #pragma once
@@ -49,7 +49,6 @@ inline constexpr double kBlue = 0.735;
 inline constexpr double kViolet = 0.81;
 inline constexpr double kPurple = 0.87;
 inline constexpr double kMagenta = 0.93;
-inline constexpr double kPink = 0.99;
 
 // The colour of this lightness and hue whose chroma is the wanted one, or as much of it
 // as fits into sRGB. Requires: lightness in [0, 1], chroma >= 0.

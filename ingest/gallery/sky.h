@@ -13,7 +13,6 @@
 namespace haarmony::gallery {
 
 enum class Hour { kMorning, kNoon, kGoldenHour, kSunset, kDusk, kNight, kStorm };
-inline constexpr int kHours = 7;
 
 struct Sky {
     Hour hour = Hour::kNoon;
