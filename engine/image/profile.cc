@@ -54,8 +54,10 @@ std::optional<BinRule> bin_rule_from_name(std::string_view name) {
 }
 
 std::optional<Profile> built_in_profile(std::string_view name) {
-    if (name == "painted") return Profile{"painted", 60, BinRule::kLog2Plus1, kPainted};
-    if (name == "scanned") return Profile{"scanned", 40, BinRule::kLog2Plus1, kScanned};
+    if (name == "painted")
+        return Profile{"painted", {}, 60, BinRule::kLog2Plus1, kPainted, {}};
+    if (name == "scanned")
+        return Profile{"scanned", {}, 40, BinRule::kLog2Plus1, kScanned, {}};
     return std::nullopt;
 }
 

@@ -28,11 +28,21 @@ using Weights = std::array<std::array<std::int32_t, kBins>, kChannels>;
 // The largest weight, 10,000.00: 300 matching coefficients stay far inside 64 bits.
 inline constexpr std::int32_t kMaxWeight = 1'000'000;
 
+// The probability that a target at `distance` is the one that was meant:
+// F(intercept - scale * distance), F(x) = 1 / (1 + e^-x) (sec. 4.3.3).
+struct Calibration {
+    double intercept = 0;
+    double scale = 0;
+    friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
 struct Profile {
     std::string name;
+    SignatureKind kind;
     int m = 60;  // coefficients per channel, 1..kMaxCoefficients
     BinRule bin_rule = BinRule::kLog2Plus1;
-    Weights weights{};  // each in [0, kMaxWeight]
+    Weights weights{};                       // each in [0, kMaxWeight]
+    std::optional<Calibration> calibration;  // of trained profiles
 };
 
 // The bin of coefficient (row, column). Requires: 0 <= row, column < kSide, not both 0.

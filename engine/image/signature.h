@@ -16,6 +16,7 @@
 #include <span>
 
 #include "engine/core/image_view.h"
+#include "engine/image/signature_kind.h"
 
 namespace haarmony::image {
 
@@ -43,6 +44,7 @@ struct ChannelSignature {
 };
 
 struct Signature {
+    SignatureKind kind;
     std::array<ChannelSignature, kChannels> channels;
     bool low_information = false;  // less wavelet energy than kLowInformationEnergy
 
