@@ -30,22 +30,45 @@ class TombstonesInWork {
     std::shared_ptr<Tombstones> copy_;
 };
 
+void score_tail(const Collection& collection,
+                const Query& query,
+                const IdSet* only,
+                std::vector<Match>& out) {
+    const LiveTail& tail = collection.tail;
+    const int m = std::min(query.m, collection.index_m);
+    tail.records->score_all(query, m, tail.count, tail.removed, only, out);
+}
+
 }  // namespace
 
-SearchResult search(const Collection& collection, const Query& query, int limit) {
-    TopK top(limit);
+SearchResult search(const Collection& collection,
+                    const Query& query,
+                    const SearchScope& scope) {
+    TopK top(scope.limit);
     SearchResult result;
     SegmentScores scores;
     for (const LiveSegment& part : collection.segments) {
-        part.segment->search(query, part.removed, scores, top);
-        result.searched += part.live();
+        result.searched +=
+            part.segment->search(query, part.removed, scope.only, scores, top);
     }
-    const LiveTail& tail = collection.tail;
-    const int m = std::min(query.m, collection.index_m);
-    tail.records->search(query, m, tail.count, tail.removed, top);
-    result.searched += tail.live();
+    std::vector<Match> newest;
+    score_tail(collection, query, scope.only, newest);
+    for (const Match& match : newest) top.offer(match);
+    result.searched += std::int64_t(newest.size());
     result.matches = top.take();
     return result;
+}
+
+std::vector<Match> score_all(const Collection& collection,
+                             const Query& query,
+                             const IdSet* only) {
+    std::vector<Match> matches;
+    SegmentScores scores;
+    for (const LiveSegment& part : collection.segments) {
+        part.segment->score_all(query, part.removed, only, scores, matches);
+    }
+    score_tail(collection, query, only, matches);
+    return matches;
 }
 
 IndexStats stats(const Collection& collection) {

@@ -17,8 +17,13 @@ class PublishedCollection final : public IndexSnapshot {
     explicit PublishedCollection(Collection collection)
         : collection_(std::move(collection)) {}
 
-    [[nodiscard]] SearchResult search(const Query& query, int limit) const override {
-        return image::search(collection_, query, limit);
+    [[nodiscard]] SearchResult search(const Query& query,
+                                      const SearchScope& scope) const override {
+        return image::search(collection_, query, scope);
+    }
+    [[nodiscard]] std::vector<Match> score_all(const Query& query,
+                                               const IdSet* only) const override {
+        return image::score_all(collection_, query, only);
     }
     [[nodiscard]] IndexStats stats() const override { return image::stats(collection_); }
     [[nodiscard]] const Collection& collection() const { return collection_; }

@@ -14,8 +14,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/core/ids.h"
+#include "engine/image/id_set.h"
 #include "engine/image/query.h"
 #include "engine/image/record.h"
 
@@ -32,6 +34,12 @@ struct IndexStats {
     std::int64_t segments = 0;
     std::int64_t tail = 0;   // slots of the tail in use
     std::int64_t bytes = 0;  // of search arrays, ids, averages and the tail
+};
+
+// How many matches are wanted, and among which pictures.
+struct SearchScope {
+    int limit = 0;                // >= 0
+    const IdSet* only = nullptr;  // null: all
 };
 
 class IndexSnapshot;
@@ -64,10 +72,13 @@ class IndexSnapshot {
   public:
     virtual ~IndexSnapshot() = default;
 
-    // The `limit` best matches, exactly, best first, ties to the smaller id. Terms of the
-    // query beyond index_m do not exist in the index: a caller makes the query with
-    // m <= index_m. Requires: limit >= 0.
-    [[nodiscard]] virtual SearchResult search(const Query& query, int limit) const = 0;
+    // The best matches, exactly, best first, ties to the smaller id. Terms of the query
+    // beyond index_m do not exist in the index: a caller makes the query with m <= index_m.
+    [[nodiscard]] virtual SearchResult search(const Query& query,
+                                              const SearchScope& scope) const = 0;
+    // Every picture with its score, in no order: what ranks of several metrics are made of.
+    [[nodiscard]] virtual std::vector<Match> score_all(const Query& query,
+                                                       const IdSet* only) const = 0;
     [[nodiscard]] virtual IndexStats stats() const = 0;
 };
 

@@ -9,15 +9,11 @@ namespace {
 
 constexpr double kScoreUnit = 100.0 * double{kAverageOne};
 
-// Equation (4.3) in units of a score: what (4.4) leaves out is added again.
-Score full_distance(const Query& query, Score score) {
-    return score + query.weight_sum * kAverageOne;
-}
-
 }  // namespace
 
 Query make_query(const Signature& signature, const Profile& profile, int m) {
     assert(m >= 1 && m <= kMaxCoefficients);
+    assert(signature.kind == profile.kind);
     Query query;
     query.m = m;
     for (int c = 0; c < kChannels; ++c) {
@@ -38,13 +34,21 @@ Query make_query(const Signature& signature, const Profile& profile, int m) {
 
 Score score(const Query& query,
             const std::array<std::int32_t, kChannels>& target_average,
+            std::int32_t target_log_aspect,
             std::int64_t matched_weight) {
     Score total = -matched_weight * kAverageOne;
+    total += query.aspect_weight *
+             std::abs(std::int64_t{query.log_aspect} - target_log_aspect);
     for (int c = 0; c < kChannels; ++c) {
         total += query.average_weight[c] *
                  std::abs(std::int64_t{query.average[c]} - target_average[c]);
     }
     return total;
+}
+
+// What (4.4) leaves out is added again.
+Score full_distance(const Query& query, Score score) {
+    return score + query.weight_sum * kAverageOne;
 }
 
 double distance(const Query& query, Score score) {

@@ -39,21 +39,29 @@ struct QueryTerm {
 struct Query {
     std::array<std::int32_t, kChannels> average{};         // fixed point, as in Signature
     std::array<std::int32_t, kChannels> average_weight{};  // w0 in 1/100
+    std::int32_t log_aspect = 0;                           // see aspect.h
+    std::int32_t aspect_weight = 0;                        // in 1/100
     std::vector<QueryTerm> terms;
     std::int64_t weight_sum = 0;  // of the terms, in 1/100
     int m = 0;                    // query and target are both cut to their m largest
 };
 
-// The query that a signature and a profile make, both cut at m. Requires: 1 <= m <= 100.
+// The query that a signature and a profile of its kind make, both cut at m; the shape of the
+// picture has no weight. Requires: 1 <= m <= 100.
 [[nodiscard]] Query make_query(const Signature& signature, const Profile& profile, int m);
 
-// Equation (4.4) of one target; what the search arrays compute for all of them at once.
-// `matched_weight` is the sum of the weights of the terms that the target has.
+// Equation (4.4) of one target, and the term of its shape; what the search arrays compute
+// for all of them at once. `matched_weight` is the sum of the weights of the terms that the
+// target has.
 [[nodiscard]] Score score(const Query& query,
                           const std::array<std::int32_t, kChannels>& target_average,
+                          std::int32_t target_log_aspect,
                           std::int64_t matched_weight);
 
-// Equation (4.3) of a score.
+// Equation (4.3) of a score, in units of a score: an exact integer, and comparable between
+// queries, which scores are not.
+[[nodiscard]] Score full_distance(const Query& query, Score score);
+// The same in the weights' unit.
 [[nodiscard]] double distance(const Query& query, Score score);
 // 1 - distance / sum of the weights of the query's coefficients, clipped to [0, 1]; for a
 // query without coefficients 1 where the distance is 0, else 0.
@@ -64,6 +72,11 @@ struct Match {
     Score score = 0;
     friend bool operator==(const Match&, const Match&) = default;
 };
+
+// The order of ranks: smaller score first, ties to the smaller id.
+[[nodiscard]] constexpr bool better(const Match& a, const Match& b) {
+    return a.score != b.score ? a.score < b.score : a.id < b.id;
+}
 
 struct SearchResult {
     std::vector<Match> matches;  // best first

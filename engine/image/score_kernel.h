@@ -2,7 +2,7 @@
 //
 // Scale   as Score in query.h: exact integers.
 // Errors  none.
-// Source  sec. 4.2.4, equation (4.4); Figure 4.2.
+// Source  sec. 4.2.4, equation (4.4); Figure 4.2; sec. 4.6, "Aspect ratio".
 #pragma once
 
 #include <array>
@@ -13,10 +13,17 @@
 
 namespace haarmony::image {
 
-// scores[i] = score(query, (averages[0][i], averages[1][i], averages[2][i]), matched[i]).
-// Requires: all spans are as long as `scores`.
+// What is known of each slot beside its coefficients.
+struct SlotColumns {
+    std::array<std::span<const std::int32_t>, kChannels> averages;
+    std::span<const std::int32_t> log_aspects;
+};
+
+// scores[i] = score(query, (averages[0][i], averages[1][i], averages[2][i]),
+//                   log_aspects[i], matched[i]).
+// Requires: all spans are as long as `scores`. Cost: a column whose weight is 0 is not read.
 void score_slots(const Query& query,
-                 const std::array<std::span<const std::int32_t>, kChannels>& averages,
+                 const SlotColumns& columns,
                  std::span<const std::int32_t> matched,
                  std::span<Score> scores);
 

@@ -11,8 +11,8 @@ namespace haarmony::image {
 
 int LiveSegment::live() const { return segment->size() - removed_count(removed); }
 
-Segment::Segment(std::vector<ImageId> ids, Averages averages, SearchArrays arrays)
-    : ids_(std::move(ids)), averages_(std::move(averages)), arrays_(std::move(arrays)) {
+Segment::Segment(std::vector<ImageId> ids, Columns columns, SearchArrays arrays)
+    : ids_(std::move(ids)), columns_(std::move(columns)), arrays_(std::move(arrays)) {
     assert(!ids_.empty() && ids_.size() <= std::size_t{kMaxSlots});
     assert(std::ranges::adjacent_find(ids_, std::greater_equal<>()) == ids_.end());
 }
@@ -21,13 +21,17 @@ std::shared_ptr<const Segment> Segment::from_records(
     std::span<const Record* const> records,
     int index_m) {
     std::vector<ImageId> ids;
-    Averages averages;
+    Columns columns;
     ids.reserve(records.size());
-    for (const Record* record : records) ids.push_back(record->id);
+    columns.log_aspects.reserve(records.size());
+    for (const Record* record : records) {
+        ids.push_back(record->id);
+        columns.log_aspects.push_back(record->log_aspect);
+    }
     for (int c = 0; c < kChannels; ++c) {
-        averages[c].reserve(records.size());
+        columns.averages[c].reserve(records.size());
         for (const Record* record : records) {
-            averages[c].push_back(record->signature.channels[c].average);
+            columns.averages[c].push_back(record->signature.channels[c].average);
         }
     }
     SearchArrays arrays(index_m, [&](const auto& sink) {
@@ -42,7 +46,7 @@ std::shared_ptr<const Segment> Segment::from_records(
         }
     });
     return std::shared_ptr<const Segment>(
-        new Segment(std::move(ids), std::move(averages), std::move(arrays)));
+        new Segment(std::move(ids), std::move(columns), std::move(arrays)));
 }
 
 std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts) {
@@ -66,13 +70,15 @@ std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts
     for (const LiveSegment& part : parts)
         new_slot.emplace_back(part.segment->size(), kGone);
     std::vector<ImageId> ids;
-    Averages averages;
+    Columns columns;
     for (const Source& source : sources) {
-        new_slot[source.part][source.slot] = static_cast<int>(ids.size());
+        const auto slot = std::size_t(source.slot);
+        const Columns& old = parts[source.part].segment->columns_;
+        new_slot[source.part][slot] = static_cast<int>(ids.size());
         ids.push_back(source.id);
+        columns.log_aspects.push_back(old.log_aspects[slot]);
         for (int c = 0; c < kChannels; ++c) {
-            averages[c].push_back(
-                parts[source.part].segment->averages_[c][std::size_t(source.slot)]);
+            columns.averages[c].push_back(old.averages[c][slot]);
         }
     }
     const int index_m = parts[0].segment->arrays_.index_m();
@@ -87,7 +93,7 @@ std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts
         }
     });
     return std::shared_ptr<const Segment>(
-        new Segment(std::move(ids), std::move(averages), std::move(arrays)));
+        new Segment(std::move(ids), std::move(columns), std::move(arrays)));
 }
 
 std::optional<int> Segment::find(ImageId id) const {
@@ -97,23 +103,55 @@ std::optional<int> Segment::find(ImageId id) const {
     return static_cast<int>(found - ids_.begin());
 }
 
-void Segment::search(const Query& query,
-                     const TombstonesPtr& removed,
-                     SegmentScores& scores,
-                     TopK& top) const {
+void Segment::score(const Query& query, SegmentScores& scores) const {
     scores.matched.assign(ids_.size(), 0);
     scores.scores.resize(ids_.size());
     arrays_.add_matches(query, scores.matched);
-    score_slots(
-        query, {averages_[0], averages_[1], averages_[2]}, scores.matched, scores.scores);
+    const auto& averages = columns_.averages;
+    score_slots(query,
+                {{averages[0], averages[1], averages[2]}, columns_.log_aspects},
+                scores.matched,
+                scores.scores);
+}
+
+int Segment::search(const Query& query,
+                    const TombstonesPtr& removed,
+                    const IdSet* only,
+                    SegmentScores& scores,
+                    TopK& top) const {
+    score(query, scores);
+    if (only == nullptr) {
+        for (int slot = 0; slot < size(); ++slot) {
+            const Score score = scores.scores[std::size_t(slot)];
+            if (top.admits(score) && !is_removed(removed, slot))
+                top.offer({id(slot), score});
+        }
+        return size() - removed_count(removed);
+    }
+    int searched = 0;
     for (int slot = 0; slot < size(); ++slot) {
-        const Score score = scores.scores[std::size_t(slot)];
-        if (top.admits(score) && !is_removed(removed, slot)) top.offer({id(slot), score});
+        if (!only->contains(id(slot)) || is_removed(removed, slot)) continue;
+        ++searched;
+        top.offer({id(slot), scores.scores[std::size_t(slot)]});
+    }
+    return searched;
+}
+
+void Segment::score_all(const Query& query,
+                        const TombstonesPtr& removed,
+                        const IdSet* only,
+                        SegmentScores& scores,
+                        std::vector<Match>& out) const {
+    score(query, scores);
+    for (int slot = 0; slot < size(); ++slot) {
+        if (is_removed(removed, slot)) continue;
+        if (only != nullptr && !only->contains(id(slot))) continue;
+        out.push_back({id(slot), scores.scores[std::size_t(slot)]});
     }
 }
 
 std::int64_t Segment::bytes() const {
-    const std::size_t per_slot = sizeof(ImageId) + kChannels * sizeof(std::int32_t);
+    const std::size_t per_slot = sizeof(ImageId) + (kChannels + 1) * sizeof(std::int32_t);
     return arrays_.bytes() + std::int64_t(ids_.size() * per_slot);
 }
 

@@ -1,4 +1,4 @@
-// An immutable block of at most kMaxSlots pictures: search arrays, averages and ids.
+// An immutable block of at most kMaxSlots pictures: search arrays, averages, shapes and ids.
 //
 // Shape   slots are in rising order of id, so that an id is found by binary search.
 // Errors  none; a wrong shape is a caller's bug and asserts.
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/core/ids.h"
+#include "engine/image/id_set.h"
 #include "engine/image/record.h"
 #include "engine/image/search_arrays.h"
 #include "engine/image/tombstones.h"
@@ -53,21 +54,34 @@ class Segment {
     [[nodiscard]] ImageId id(int slot) const { return ids_[std::size_t(slot)]; }
     [[nodiscard]] std::optional<int> find(ImageId id) const;
 
-    // Offers every picture that is not removed.
-    void search(const Query& query,
-                const TombstonesPtr& removed,
-                SegmentScores& scores,
-                TopK& top) const;
+    // Offers every picture that is not removed, and in `only` if there is one; returns how
+    // many these are.
+    int search(const Query& query,
+               const TombstonesPtr& removed,
+               const IdSet* only,
+               SegmentScores& scores,
+               TopK& top) const;
+    // Appends the scores of the same pictures, in the order of ids.
+    void score_all(const Query& query,
+                   const TombstonesPtr& removed,
+                   const IdSet* only,
+                   SegmentScores& scores,
+                   std::vector<Match>& out) const;
 
     [[nodiscard]] std::int64_t bytes() const;
 
   private:
-    using Averages = std::array<std::vector<std::int32_t>, kChannels>;
+    // What is known of a slot beside its coefficients: a column each.
+    struct Columns {
+        std::array<std::vector<std::int32_t>, kChannels> averages;
+        std::vector<std::int32_t> log_aspects;
+    };
 
-    Segment(std::vector<ImageId> ids, Averages averages, SearchArrays arrays);
+    Segment(std::vector<ImageId> ids, Columns columns, SearchArrays arrays);
+    void score(const Query& query, SegmentScores& scores) const;
 
     std::vector<ImageId> ids_;
-    Averages averages_;
+    Columns columns_;
     SearchArrays arrays_;
 };
 

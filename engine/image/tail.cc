@@ -1,7 +1,6 @@
 #include "engine/image/tail.h"
 
 #include <cassert>
-#include <vector>
 
 namespace haarmony::image {
 
@@ -10,17 +9,19 @@ Tail::Tail(int capacity)
     assert(capacity >= 1);
 }
 
-void Tail::search(const Query& query,
-                  int m,
-                  int count,
-                  const TombstonesPtr& removed,
-                  TopK& top) const {
+void Tail::score_all(const Query& query,
+                     int m,
+                     int count,
+                     const TombstonesPtr& removed,
+                     const IdSet* only,
+                     std::vector<Match>& out) const {
     if (count == 0) return;
     std::vector<std::int32_t> weight_of_key(kKeyCount);
     for (const QueryTerm& term : query.terms) weight_of_key[term.key] = term.weight;
     for (int slot = 0; slot < count; ++slot) {
         if (is_removed(removed, slot)) continue;
         const Record& record = records_[slot];
+        if (only != nullptr && !only->contains(record.id)) continue;
         std::array<std::int32_t, kChannels> average{};
         std::int64_t matched = 0;
         for (int c = 0; c < kChannels; ++c) {
@@ -30,7 +31,7 @@ void Tail::search(const Query& query,
                 matched += weight_of_key[coefficient_key(c, signed_index)];
             }
         }
-        top.offer({record.id, score(query, average, matched)});
+        out.push_back({record.id, score(query, average, record.log_aspect, matched)});
     }
 }
 

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "engine/image/id_set.h"
+#include "engine/image/query.h"
 #include "engine/image/record.h"
 #include "engine/image/tombstones.h"
-#include "engine/image/top_k.h"
 
 namespace haarmony::image {
 
@@ -24,13 +26,14 @@ class Tail {
     // Requires: slot < capacity, in no published count yet.
     void write(int slot, const Record& record) { records_[slot] = record; }
 
-    // Offers every picture of the first `count` that is not removed, compared one by one
-    // and cut at `m`.
-    void search(const Query& query,
-                int m,
-                int count,
-                const TombstonesPtr& removed,
-                TopK& top) const;
+    // Appends the scores of those pictures of the first `count` that are not removed, and
+    // in `only` if there is one, compared one by one and cut at `m`.
+    void score_all(const Query& query,
+                   int m,
+                   int count,
+                   const TombstonesPtr& removed,
+                   const IdSet* only,
+                   std::vector<Match>& out) const;
 
     [[nodiscard]] std::int64_t bytes() const;
 

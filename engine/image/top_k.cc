@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace haarmony::image {
-namespace {
-
-bool better(const Match& a, const Match& b) {
-    return a.score != b.score ? a.score < b.score : a.id < b.id;
-}
-
-}  // namespace
-
 TopK::TopK(int limit) : limit_(static_cast<std::size_t>(limit)) { assert(limit >= 0); }
 
 void TopK::offer(const Match& match) {

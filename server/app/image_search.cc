@@ -44,7 +44,7 @@ Result<Found> search_images(const image::IndexSnapshot& snapshot,
     // Each round asks for as many more as the last one lacked; the rounds end because the
     // snapshot does.
     for (int wanted = limit;;) {
-        image::SearchResult result = snapshot.search(query, wanted);
+        image::SearchResult result = snapshot.search(query, {wanted});
         const bool exhausted = static_cast<int>(result.matches.size()) < wanted;
         const std::size_t ranked = result.matches.size();
         if (min_similarity) cut_below(*min_similarity, query, result.matches);

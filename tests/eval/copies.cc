@@ -69,9 +69,9 @@ CopiesRow measure(const QueryKind& kind,
         const image::Query query =
             image::make_query(image::make_signature(degraded.view()), profile, profile.m);
         const auto start = Clock::now();
-        (void)snapshot.search(query, 20);
+        (void)snapshot.search(query, {20});
         times.push_back(seconds_since(start) * 1000);
-        const auto all = snapshot.search(query, static_cast<int>(pictures)).matches;
+        const auto all = snapshot.search(query, {static_cast<int>(pictures)}).matches;
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const image::Match& m) {
                 return m.id == target.id;

@@ -28,7 +28,7 @@ std::string line_of(const image::IndexSnapshot& snapshot,
         image::make_query(image::make_signature(picture.view()), profile, profile.m);
     std::ostringstream line;
     line << label << ' ' << profile_name << ':';
-    for (const image::Match& match : snapshot.search(query, 20).matches) {
+    for (const image::Match& match : snapshot.search(query, {20}).matches) {
         line << ' ' << to_int(match.id) << '/' << match.score;
     }
     line << '\n';

@@ -23,7 +23,7 @@ Collection collection_of(std::vector<LiveSegment> segments) {
 std::vector<std::int64_t> live_ids(const Collection& collection) {
     const Query query = make_query({}, *built_in_profile("painted"), 1);
     std::vector<std::int64_t> ids;
-    for (const Match& match : search(collection, query, 1000).matches) {
+    for (const Match& match : search(collection, query, {1000}).matches) {
         ids.push_back(to_int(match.id));
     }
     return ids;

@@ -17,22 +17,37 @@ class Twin {
 
     void apply(const std::vector<Record>& upserts, const std::vector<ImageId>& removals) {
         for (const Record& record : upserts) {
-            reference_[to_int(record.id)] = record.signature;
+            reference_[to_int(record.id)] = {record.signature, record.log_aspect};
         }
         for (const ImageId id : removals) reference_.erase(to_int(id));
         index_.apply(upserts, removals);
     }
 
-    void expect_equal(const Signature& query, int m, int limit) const {
+    void expect_equal(const Signature& signature, int m, const Wanted& wanted) const {
+        std::vector<ImageId> ids;
+        for (const std::int64_t id : wanted.only.value_or(std::set<std::int64_t>{})) {
+            ids.push_back(ImageId{id});
+        }
+        const IdSet only(ids);
+        const SearchScope scope{wanted.limit, wanted.only ? &only : nullptr};
         for (const char* name : {"painted", "scanned"}) {
             const Profile profile = *built_in_profile(name);
+            SCOPED_TRACE(testing::Message()
+                         << name << ", m " << m << ", limit " << wanted.limit);
             const SearchResult expected =
-                search_literally(reference_, query, profile, m, limit);
-            const SearchResult found =
-                index_.snapshot()->search(make_query(query, profile, m), limit);
-            ASSERT_EQ(found.matches, expected.matches)
-                << name << ", m " << m << ", limit " << limit;
+                search_literally(reference_, signature, profile, m, wanted);
+            Query query = make_query(signature, profile, m);
+            query.log_aspect = wanted.log_aspect;
+            query.aspect_weight = wanted.aspect_weight;
+            const SearchResult found = index_.snapshot()->search(query, scope);
+            ASSERT_EQ(found.matches, expected.matches);
             ASSERT_EQ(found.searched, expected.searched);
+
+            std::vector<Match> all = index_.snapshot()->score_all(query, scope.only);
+            ASSERT_EQ(std::int64_t(all.size()), expected.searched);
+            std::ranges::sort(all, better);
+            all.resize(std::min(all.size(), std::size_t(wanted.limit)));
+            ASSERT_EQ(all, expected.matches);
         }
     }
 
@@ -65,8 +80,9 @@ TEST_P(IndexUnderRandomChanges, FindsWhatTheMetricFinds) {
         std::vector<Record> upserts;
         std::vector<ImageId> removals;
         for (int i = below(7); i > 0; --i) {
-            upserts.push_back(
-                {ImageId{1 + below(40)}, random_signature(random, settings.shape)});
+            upserts.push_back({ImageId{1 + below(40)},
+                               random_signature(random, settings.shape),
+                               below(3) * 1000});
         }
         for (int i = below(5); i > 0; --i) removals.push_back(ImageId{1 + below(45)});
         twin.apply(upserts, removals);
@@ -74,16 +90,22 @@ TEST_P(IndexUnderRandomChanges, FindsWhatTheMetricFinds) {
 
         const Signature query = random_signature(random, settings.shape);
         const int m = 1 + below(settings.options.index_m);
-        twin.expect_equal(query, m, below(int(twin.reference().size()) + 5));
+        Wanted wanted{.limit = below(int(twin.reference().size()) + 5)};
+        twin.expect_equal(query, m, wanted);
+        wanted.log_aspect = 1500;
+        wanted.aspect_weight = 1 + below(200);
+        wanted.only.emplace();
+        for (int i = below(20); i > 0; --i) wanted.only->insert(1 + below(60));
+        twin.expect_equal(query, m, wanted);
         if (HasFatalFailure()) FAIL() << "step " << step;
         EXPECT_EQ(twin.index().snapshot()->stats().images,
                   std::int64_t(twin.reference().size()));
     }
     const Signature query = random_signature(random, settings.shape);
     for (int limit = 0; limit <= int(twin.reference().size()) + 5; ++limit) {
-        twin.expect_equal(query, settings.options.index_m, limit);
+        twin.expect_equal(query, settings.options.index_m, {.limit = limit});
     }
-    for (int m = 1; m <= settings.options.index_m; ++m) twin.expect_equal(query, m, 1000);
+    for (int m = 1; m <= settings.options.index_m; ++m) twin.expect_equal(query, m, {});
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -103,7 +125,7 @@ Record record_of(std::int64_t id, int average) {
 
 SearchResult search_all(const Index& index) {
     return index.snapshot()->search(make_query({}, *built_in_profile("painted"), 1),
-                                    1000);
+                                    {1000});
 }
 
 std::vector<Record> records_of(int count) {
@@ -152,8 +174,8 @@ TEST(Index, ASnapshotStaysAsItWas) {
         }
     }
     const Query query = make_query({}, *built_in_profile("painted"), 1);
-    EXPECT_EQ(empty->search(query, 9).searched, 0);
-    EXPECT_EQ(one->search(query, 9).matches, (std::vector<Match>{{ImageId{1}, 404}}));
+    EXPECT_EQ(empty->search(query, {9}).searched, 0);
+    EXPECT_EQ(one->search(query, {9}).matches, (std::vector<Match>{{ImageId{1}, 404}}));
     EXPECT_EQ(search_all(index).matches, (std::vector<Match>{{ImageId{39}, 404}}));
 }
 
@@ -179,7 +201,7 @@ TEST(Index, AHugeLoadIsSealedAtOnceInFullSegments) {
     EXPECT_EQ(stats.segments, 2);
     EXPECT_EQ(stats.tail, 0);
     const Query query = make_query({}, *built_in_profile("painted"), 1);
-    const auto best = index.snapshot()->search(query, 2).matches;
+    const auto best = index.snapshot()->search(query, {2}).matches;
     EXPECT_EQ(best, (std::vector<Match>{{ImageId{1}, 404}, {ImageId{2}, 808}}));
     EXPECT_FALSE(index.merge_once());
 }
@@ -234,7 +256,7 @@ TEST(Index, BytesGrowByThePostingsOfAPicture) {
     index.apply(records, {});
     const std::int64_t lists = 4 * (std::int64_t{kKeyCount} + 1);
     EXPECT_EQ(index.snapshot()->stats().bytes - empty,
-              lists + 3 * postings + 2000 * (8 + 3 * 4));
+              lists + 3 * postings + 2000 * (8 + 4 * 4));
 }
 
 }  // namespace

@@ -39,10 +39,11 @@ std::vector<Step> make_steps(const Signature& query, int count) {
             step.removals.push_back(ImageId{2 + static_cast<int>(random() % 25)});
         }
         for (const Record& record : step.upserts) {
-            reference[to_int(record.id)] = record.signature;
+            reference[to_int(record.id)] = {record.signature};
         }
         for (const ImageId id : step.removals) reference.erase(to_int(id));
-        step.expected = search_literally(reference, query, profile, kM, kLimit);
+        step.expected =
+            search_literally(reference, query, profile, kM, {.limit = kLimit});
         steps.push_back(std::move(step));
     }
     return steps;
@@ -70,7 +71,7 @@ TEST(IndexThreads, EveryResultIsThatOfOnePublishedState) {
     const auto read = [&] {
         std::size_t at = 0;
         while (!done) {
-            const SearchResult found = index.snapshot()->search(query, kLimit);
+            const SearchResult found = index.snapshot()->search(query, {kLimit});
             while (at < steps.size() && !operator_equal(steps[at].expected, found)) ++at;
             if (at == steps.size()) {
                 ++strays;
@@ -109,7 +110,7 @@ TEST(IndexThreads, EveryResultIsThatOfOnePublishedState) {
     EXPECT_GE(reads, int(2 * (steps.size() - 1)));
     EXPECT_GT(merges, 0);
     EXPECT_TRUE(
-        operator_equal(index.snapshot()->search(query, kLimit), steps.back().expected));
+        operator_equal(index.snapshot()->search(query, {kLimit}), steps.back().expected));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Score score_of(const Query& query, const Signature& target) {
     for (const QueryTerm& term : query.terms) {
         if (keys.contains(term.key)) matched += term.weight;
     }
-    return score(query, average, matched);
+    return score(query, average, 0, matched);
 }
 
 TEST(CoefficientKey, IsDifferentForEverySignChannelAndPlace) {

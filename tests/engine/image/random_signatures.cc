@@ -34,7 +34,7 @@ SearchResult search_literally(const Reference& pictures,
                               const Signature& query,
                               const Profile& profile,
                               int m,
-                              int limit) {
+                              const Wanted& wanted) {
     // (4.4) leaves out what does not depend on the target: the weights of the query.
     Signature nothing;
     for (int c = 0; c < kChannels; ++c) {
@@ -43,13 +43,20 @@ SearchResult search_literally(const Reference& pictures,
     const std::int64_t constant = metric(query, nothing, profile, m);
 
     std::vector<std::pair<std::int64_t, std::int64_t>> ranking;
-    for (const auto& [id, signature] : pictures) {
-        ranking.emplace_back(metric(query, signature, profile, m) - constant, id);
+    for (const auto& [id, target] : pictures) {
+        if (wanted.only && !wanted.only->contains(id)) continue;
+        const std::int64_t shapes = wanted.log_aspect > target.log_aspect
+                                        ? wanted.log_aspect - target.log_aspect
+                                        : target.log_aspect - wanted.log_aspect;
+        ranking.emplace_back(metric(query, target.signature, profile, m) - constant +
+                                 wanted.aspect_weight * shapes,
+                             id);
     }
     std::sort(ranking.begin(), ranking.end());
     SearchResult result;
-    result.searched = std::int64_t(pictures.size());
-    for (std::size_t i = 0; i < std::min(ranking.size(), std::size_t(limit)); ++i) {
+    result.searched = std::int64_t(ranking.size());
+    const auto kept = std::min(ranking.size(), std::size_t(wanted.limit));
+    for (std::size_t i = 0; i < kept; ++i) {
         result.matches.push_back({ImageId{ranking[i].second}, ranking[i].first});
     }
     return result;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "engine/image/query.h"
@@ -20,11 +22,23 @@ struct SignatureShape {
                                          const SignatureShape& shape);
 
 // A collection that is searched with equation (4.3) for every picture and a full sort.
-using Reference = std::map<std::int64_t, Signature>;
+struct Target {
+    Signature signature;
+    std::int32_t log_aspect = 0;
+};
+using Reference = std::map<std::int64_t, Target>;
+
+// What is asked for beside the signature.
+struct Wanted {
+    int limit = 1000;
+    std::int32_t log_aspect = 0;
+    std::int32_t aspect_weight = 0;
+    std::optional<std::set<std::int64_t>> only = {};
+};
 [[nodiscard]] SearchResult search_literally(const Reference& pictures,
                                             const Signature& query,
                                             const Profile& profile,
                                             int m,
-                                            int limit);
+                                            const Wanted& wanted);
 
 }  // namespace haarmony::image

@@ -22,17 +22,23 @@ TEST(ScoreKernel, IsTheScoreOfEverySlot) {
                 static_cast<std::int32_t>(random() % (kMaxWeight + 1));
             for (std::size_t i = 0; i < count; ++i) averages[c].push_back(average());
         }
+        query.log_aspect = average();
+        query.aspect_weight = static_cast<std::int32_t>(random() % 3 * 500);
+        std::vector<std::int32_t> aspects;
+        for (std::size_t i = 0; i < count; ++i) aspects.push_back(average());
         std::vector<std::int32_t> matched;
         for (std::size_t i = 0; i < count; ++i) {
             matched.push_back(static_cast<std::int32_t>(random() % (300U * kMaxWeight)));
         }
         std::vector<Score> scores(count);
-        score_slots(query, {averages[0], averages[1], averages[2]}, matched, scores);
+        score_slots(
+            query, {{averages[0], averages[1], averages[2]}, aspects}, matched, scores);
         for (std::size_t i = 0; i < count; ++i) {
-            ASSERT_EQ(
-                scores[i],
-                score(
-                    query, {averages[0][i], averages[1][i], averages[2][i]}, matched[i]));
+            ASSERT_EQ(scores[i],
+                      score(query,
+                            {averages[0][i], averages[1][i], averages[2][i]},
+                            aspects[i],
+                            matched[i]));
         }
     }
 }
@@ -46,8 +52,13 @@ TEST(ScoreKernel, DoesNotOverflow) {
     const std::int32_t all_terms = 300 * kMaxWeight;
     const std::vector<std::int32_t> matched = {0, all_terms};
     std::vector<Score> scores(2);
-    score_slots(query, {averages, averages, averages}, matched, scores);
-    EXPECT_EQ(scores[0], 3 * Score{kMaxWeight} * (Score{1} << 25));
+    query.log_aspect = -(1 << 27);
+    query.aspect_weight = kMaxWeight;
+    const std::vector<std::int32_t> aspects = {1 << 27, 1 << 27};
+    score_slots(query, {{averages, averages, averages}, aspects}, matched, scores);
+    EXPECT_EQ(
+        scores[0],
+        3 * Score{kMaxWeight} * (Score{1} << 25) + Score{kMaxWeight} * (Score{1} << 28));
     EXPECT_EQ(scores[1], scores[0] - (Score{all_terms} << 24));
 }
 

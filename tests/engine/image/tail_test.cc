@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/engine/image/random_signatures.h"
@@ -9,7 +10,7 @@
 namespace haarmony::image {
 namespace {
 
-TEST(Tail, SearchesTheFirstRecordsThatAreNotRemoved) {
+TEST(Tail, ScoresTheFirstRecordsThatAreNotRemoved) {
     constexpr int kCapacity = 12;
     constexpr int kCount = 9;
     std::mt19937 random(131);
@@ -21,22 +22,24 @@ TEST(Tail, SearchesTheFirstRecordsThatAreNotRemoved) {
         const Signature signature =
             random_signature(random, {.max_index = 120, .average_steps = 2});
         tail.write(slot, {ImageId{100 - slot}, signature});
-        if (slot < kCount && slot != 3) reference[100 - slot] = signature;
+        if (slot < kCount && slot != 3) reference[100 - slot] = {signature};
     }
     const Profile profile = *built_in_profile("painted");
     for (const int m : {1, 2, 50, 100}) {
         const Signature& query = tail[3].signature;
-        TopK top(20);
-        tail.search(make_query(query, profile, m), m, kCount, removed, top);
-        EXPECT_EQ(top.take(), search_literally(reference, query, profile, m, 20).matches);
+        std::vector<Match> found;
+        tail.score_all(make_query(query, profile, m), m, kCount, removed, nullptr, found);
+        std::ranges::sort(found, better);
+        EXPECT_EQ(found, search_literally(reference, query, profile, m, {}).matches);
     }
 }
 
-TEST(Tail, OfNoRecordsOffersNothing) {
+TEST(Tail, OfNoRecordsHasNoScores) {
     const Tail tail(1);
-    TopK top(5);
-    tail.search(make_query({}, *built_in_profile("painted"), 1), 1, 0, nullptr, top);
-    EXPECT_TRUE(top.take().empty());
+    std::vector<Match> found;
+    const Query query = make_query({}, *built_in_profile("painted"), 1);
+    tail.score_all(query, 1, 0, nullptr, nullptr, found);
+    EXPECT_TRUE(found.empty());
 }
 
 TEST(Tail, CountsItsCapacityAsItsBytes) {

@@ -18,13 +18,19 @@ class FixedSnapshot final : public image::IndexSnapshot {
   public:
     explicit FixedSnapshot(std::int64_t count) : count_(count) {}
 
-    image::SearchResult search(const image::Query& /*query*/, int limit) const override {
+    image::SearchResult search(const image::Query& query,
+                               const image::SearchScope& scope) const override {
         ++searches;
-        image::SearchResult result;
-        result.searched = count_;
-        for (std::int64_t id = 1; id <= std::min<std::int64_t>(count_, limit); ++id)
-            result.matches.push_back({ImageId{id}, score_of(id)});
+        image::SearchResult result{score_all(query, scope.only), count_};
+        if (count_ > scope.limit) result.matches.resize(std::size_t(scope.limit));
         return result;
+    }
+    std::vector<image::Match> score_all(const image::Query& /*query*/,
+                                        const image::IdSet* /*only*/) const override {
+        std::vector<image::Match> matches;
+        for (std::int64_t id = 1; id <= count_; ++id)
+            matches.push_back({ImageId{id}, score_of(id)});
+        return matches;
     }
     image::IndexStats stats() const override { return {}; }
 

@@ -55,7 +55,7 @@ class IndexFollowerTest : public testing::Test {
                               60);
         std::set<ImageId> ids;
         for (const image::Match& match :
-             follower_->snapshot()->search(query, 1000).matches)
+             follower_->snapshot()->search(query, {1000}).matches)
             ids.insert(match.id);
         return ids;
     }
@@ -93,7 +93,7 @@ TEST_F(IndexFollowerTest, SeesWhatAnotherConnectionAddsChangesAndRemoves) {
     const image::Query query =
         image::make_query(changed, *image::built_in_profile("painted"), 60);
     EXPECT_TRUE(becomes_true([&] {
-        const auto best = follower_->snapshot()->search(query, 1).matches;
+        const auto best = follower_->snapshot()->search(query, {1}).matches;
         // Through a JPEG: near, not equal. The former picture is far.
         return best.front().id == first &&
                image::similarity(query, best.front().score) > 0.5;
