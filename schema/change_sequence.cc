@@ -1,5 +1,6 @@
 // The part of ImageStore that a daemon follows: a first full scan, then what changed.
 #include <cassert>
+#include <limits>
 #include <utility>
 
 #include "schema/image_statements.h"
@@ -15,13 +16,64 @@ constexpr std::string_view kLastSequence = "SELECT coalesce(max(seq), 0) FROM ch
 
 // Along the table itself: only its rows hold the signatures.
 constexpr std::string_view kScan =
-    "SELECT id, signature FROM images NOT INDEXED WHERE signature IS NOT NULL ORDER BY "
-    "id";
+    "SELECT id, width, height, signature FROM images NOT INDEXED"
+    " WHERE signature IS NOT NULL ORDER BY id";
 
+// In the order of kScan: the two are read side by side, and no picture costs a query.
+constexpr std::string_view kVariantScan =
+    "SELECT image_id, variant, signature FROM image_signatures"
+    " ORDER BY image_id, variant";
+
+// A picture with several variants is several rows, with none one row without a variant.
 constexpr std::string_view kChanges =
-    "SELECT changes.seq, changes.image_id, images.signature FROM changes"
-    " LEFT JOIN images ON images.id = changes.image_id"
-    " WHERE changes.seq > ?1 ORDER BY changes.seq LIMIT ?2";
+    "SELECT page.seq, page.image_id, images.signature, width, height, variant,"
+    " image_signatures.signature FROM"
+    " (SELECT seq, image_id FROM changes WHERE changes.seq > ?1 ORDER BY seq LIMIT ?2)"
+    " AS page LEFT JOIN images ON images.id = page.image_id"
+    " LEFT JOIN image_signatures ON image_signatures.image_id = page.image_id"
+    " ORDER BY page.seq, variant";
+
+std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> bytes) {
+    return {bytes.begin(), bytes.end()};
+}
+
+// The scan of the variants, one row ahead.
+class VariantScan {
+  public:
+    explicit VariantScan(Statement& statement) : statement_(statement) {}
+
+    // To the first row.
+    [[nodiscard]] Result<void> begin() { return advance(); }
+
+    // Reads the variants of picture `id` into `variants`. Requires: rising ids.
+    [[nodiscard]] Result<void> take(std::int64_t id,
+                                    std::vector<SignatureVariant>& variants) {
+        variants.clear();
+        while (image_ <= id) {
+            // The triggers leave no variant without a searchable picture; one would be
+            // passed over here.
+            if (image_ == id) {
+                variants.push_back(
+                    {std::string(statement_.text(1)), copy_of(statement_.bytes(2))});
+            }
+            if (Result<void> moved = advance(); !moved) return moved;
+        }
+        return {};
+    }
+
+  private:
+    static constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+
+    Result<void> advance() {
+        const Result<bool> row = statement_.step();
+        if (!row) return row.error();
+        image_ = *row ? statement_.integer(0) : kEnd;
+        return {};
+    }
+
+    Statement& statement_;
+    std::int64_t image_ = kEnd;  // of the row that it stands on
+};
 
 Result<std::int64_t> last_sequence(StatementCache& cache) {
     auto statement = cache.borrow(kLastSequence);
@@ -33,8 +85,8 @@ Result<std::int64_t> last_sequence(StatementCache& cache) {
 
 }  // namespace
 
-Result<std::int64_t> ImageStore::for_each_signature(
-    const std::function<void(ImageId, std::span<const std::uint8_t>)>& visit) {
+Result<std::int64_t> ImageStore::for_each_searchable(
+    const std::function<void(const SearchableImage&)>& visit) {
     const auto failed = [](Error error) {
         return while_doing("cannot read the signatures", std::move(error));
     };
@@ -46,11 +98,25 @@ Result<std::int64_t> ImageStore::for_each_signature(
 
     auto scan = statements_->cache.borrow(kScan);
     if (!scan) return failed(std::move(scan).error());
+    auto variant_statement = statements_->cache.borrow(kVariantScan);
+    if (!variant_statement) return failed(std::move(variant_statement).error());
+    VariantScan variant_scan(**variant_statement);
+    if (Result<void> begun = variant_scan.begin(); !begun) return failed(begun.error());
+
+    std::vector<SignatureVariant> variants;
     for (;;) {
         const Result<bool> row = (*scan)->step();
         if (!row) return failed(row.error());
         if (!*row) return sequence;
-        visit(ImageId{(*scan)->integer(0)}, (*scan)->bytes(1));
+        const std::int64_t id = (*scan)->integer(0);
+        const Result<void> taken = variant_scan.take(id, variants);
+        if (!taken) return failed(taken.error());
+        // The table bounds both sides by 2^31 - 1.
+        visit({ImageId{id},
+               static_cast<int>((*scan)->integer(1)),
+               static_cast<int>((*scan)->integer(2)),
+               (*scan)->bytes(3),
+               variants});
     }
 }
 
@@ -69,10 +135,21 @@ Result<std::vector<Change>> ImageStore::changes_after(std::int64_t sequence, int
         const Result<bool> row = (*statement)->step();
         if (!row) return failed(row.error());
         if (!*row) return changes;
-        const auto signature = (*statement)->bytes(2);
-        changes.push_back({(*statement)->integer(0),
-                           ImageId{(*statement)->integer(1)},
-                           {signature.begin(), signature.end()}});
+        const Statement& change = **statement;
+        if (changes.empty() || changes.back().sequence != change.integer(0)) {
+            Change& added = changes.emplace_back();
+            added.sequence = change.integer(0);
+            added.id = ImageId{change.integer(1)};
+            added.signature = copy_of(change.bytes(2));
+            if (!added.signature.empty()) {
+                added.width = static_cast<int>(change.integer(3));
+                added.height = static_cast<int>(change.integer(4));
+            }
+        }
+        if (!change.is_null(5)) {
+            changes.back().variants.push_back(
+                {std::string(change.text(5)), copy_of(change.bytes(6))});
+        }
     }
 }
 

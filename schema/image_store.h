@@ -6,9 +6,9 @@
 //          grow with every commit that changes what can be found.
 // Errors   kNotFound for an unknown id; kConflict for a second file row of one uri;
 //          kInvalidArgument for a value that the tables refuse (an empty signature, metadata
-//          that is no JSON object); kUnavailable where the database stays locked beyond the
-//          busy timeout; kIo with SQLite's message otherwise. A function that fails leaves
-//          nothing of itself behind, inside a transaction() too.
+//          that is no JSON object, a text to search for without a word); kUnavailable where
+//          the database stays locked beyond the busy timeout; kIo with SQLite's message
+//          otherwise. A function that fails leaves nothing of itself, in a transaction() too.
 // Threads  as Database.
 #pragma once
 
@@ -17,6 +17,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/ids.h"
@@ -38,6 +40,14 @@ struct FileStamp {
 struct Thumbnail {
     std::string media_type;  // "image/jpeg" or "image/webp"
     std::vector<std::uint8_t> bytes;
+};
+
+// A further signature of a picture, beside the first one: of another colour space, of
+// another crop. `variant` is any text of 1 to 64 characters.
+struct SignatureVariant {
+    std::string variant;
+    std::vector<std::uint8_t> signature;
+    bool operator==(const SignatureVariant&) const = default;
 };
 
 struct Image {
@@ -71,6 +81,14 @@ struct NewImage {
     Thumbnail thumbnail;
     std::vector<std::string> tags;
     std::string metadata = "{}";
+    std::vector<SignatureVariant> variants;  // of one named twice, the last
+};
+
+// What a user says about a picture; what is absent stays as it is.
+struct ImageDescription {
+    std::optional<std::string> uri;  // of an upload only
+    std::optional<std::vector<std::string>> tags;
+    std::optional<std::string> metadata;
 };
 
 // A row as the ingest worker needs it to decide whether a file changed.
@@ -85,14 +103,34 @@ struct Change {
     std::int64_t sequence = 0;
     ImageId id{};
     std::vector<std::uint8_t> signature;  // empty: not searchable any more
+    int width = 0;
+    int height = 0;
+    std::vector<SignatureVariant> variants = {};  // in the order of their names
 };
 
-// More tags in one ListOptions are refused (kInvalidArgument).
+// A searchable picture as a scan shows it: views that last until the visit returns.
+struct SearchableImage {
+    ImageId id{};
+    int width = 0;
+    int height = 0;
+    std::span<const std::uint8_t> signature;
+    std::span<const SignatureVariant> variants;  // in the order of their names
+};
+
+// More tags in one ListOptions or ImageFilter are refused (kInvalidArgument).
 inline constexpr std::size_t kMaxListTags = 64;
 
+// `text` is words, "phrases" and prefixes* over uri, tags and the strings of the metadata,
+// all of which must match (text_query.h); empty: no condition.
 struct ListOptions {
     int limit = 100;                // >= 1
     std::optional<ImageId> after;   // only ids above
+    std::vector<std::string> tags;  // all must match
+    std::string text = {};
+};
+
+struct ImageFilter {
+    std::string text;
     std::vector<std::string> tags;  // all must match
 };
 
@@ -115,11 +153,16 @@ class ImageStore {
 
     // Always a new row. A thumbnail without bytes is none.
     [[nodiscard]] Result<ImageId> add(const NewImage& image);
-    // Replaces what the pixels gave (stamp, size, signature, thumbnail, state), keeping
-    // id, uri, tags and metadata; revives a failed or deleted row.
+    // Replaces what the pixels gave (stamp, size, signature and variants, thumbnail,
+    // state), keeping id, uri, tags and metadata; revives a failed or deleted row.
     [[nodiscard]] Result<void> update(ImageId id, const NewImage& image);
     // Only the stamp: the content is the same. A new revision, but no change to follow.
     [[nodiscard]] Result<void> touch(ImageId id, const FileStamp& stamp);
+    // Replaces what is given. A new revision, but no change to follow. kNotFound for a
+    // deleted row; kConflict for another uri of a file's row: it names the file.
+    [[nodiscard]] Result<void> describe(ImageId id, const ImageDescription& description);
+    // Inserts or replaces one variant; kNotFound for a picture that is not searchable.
+    [[nodiscard]] Result<void> set_variant(ImageId id, const SignatureVariant& variant);
     // A file that cannot be decoded: an existing row (by uri, of origin kFile) loses its
     // signature, else a row is made.
     [[nodiscard]] Result<ImageId> mark_failed(const std::string& uri,
@@ -136,7 +179,12 @@ class ImageStore {
     // The same order as `ids`; unknown or deleted ones are left out.
     [[nodiscard]] Result<std::vector<Image>> get_many(std::span<const ImageId> ids);
     [[nodiscard]] Result<std::vector<Image>> list(const ListOptions& options);
+    // The ids of all searchable pictures that match, rising.
+    [[nodiscard]] Result<std::vector<ImageId>> matching(const ImageFilter& filter);
     [[nodiscard]] Result<std::vector<std::uint8_t>> signature(ImageId id);
+    // kNotFound naming both.
+    [[nodiscard]] Result<std::vector<std::uint8_t>> signature(ImageId id,
+                                                              std::string_view variant);
     [[nodiscard]] Result<Thumbnail> thumbnail(ImageId id);
 
     [[nodiscard]] Result<std::optional<KnownFile>> known_file(const std::string& uri);
@@ -148,11 +196,18 @@ class ImageStore {
 
     [[nodiscard]] Result<Counts> counts();
 
+    // The searchable pictures without that variant, in the order of ids, at most `limit`
+    // (>= 1), only ids above `after`.
+    [[nodiscard]] Result<std::vector<ImageId>>
+    without_variant(std::string_view variant, std::optional<ImageId> after, int limit);
+    // How many pictures have each variant that is there, in the order of names.
+    [[nodiscard]] Result<std::vector<std::pair<std::string, std::int64_t>>>
+    variant_counts();
+
     // Every searchable picture, in the order of ids, and the sequence number that the set
-    // corresponds to, read in one transaction. The bytes last until `visit` returns; it may
-    // read, but not write.
-    [[nodiscard]] Result<std::int64_t> for_each_signature(
-        const std::function<void(ImageId, std::span<const std::uint8_t>)>& visit);
+    // corresponds to, read in one transaction. `visit` may read, but not write.
+    [[nodiscard]] Result<std::int64_t> for_each_searchable(
+        const std::function<void(const SearchableImage&)>& visit);
     // The changes after `sequence`, oldest first, at most `limit` (>= 1); a row changed
     // several times appears once, at its last change. A picture that a follower never saw
     // may appear as gone. What a search cannot see (stamp, tags, metadata) is no change.

@@ -50,6 +50,10 @@ void Statement::bind(int parameter, std::span<const std::uint8_t> bytes) {
         statement_.get(), parameter, start, bytes.size(), SQLITE_STATIC));
 }
 
+void Statement::bind_real(int parameter, double value) {
+    note(sqlite3_bind_double(statement_.get(), parameter, value));
+}
+
 Result<bool> Statement::step() {
     sqlite3* database = sqlite3_db_handle(statement_.get());
     if (bind_result_ != SQLITE_OK) return sqlite_error(database, bind_result_);
@@ -71,6 +75,18 @@ Result<void> Statement::run() {
     return {};
 }
 
+Result<std::optional<std::int64_t>> Statement::run_returning() {
+    Result<bool> row = step();
+    if (!row) return std::move(row).error();
+    if (!*row) return std::optional<std::int64_t>();
+    const std::int64_t value = integer(0);
+    // To its end: the work of a statement with RETURNING is complete only then.
+    Result<bool> more = step();
+    if (!more) return std::move(more).error();
+    assert(!*more);
+    return std::optional<std::int64_t>(value);
+}
+
 void Statement::reset() {
     sqlite3_reset(statement_.get());
     sqlite3_clear_bindings(statement_.get());
@@ -79,6 +95,10 @@ void Statement::reset() {
 
 std::int64_t Statement::integer(int column) const {
     return sqlite3_column_int64(statement_.get(), column);
+}
+
+double Statement::real(int column) const {
+    return sqlite3_column_double(statement_.get(), column);
 }
 
 std::string_view Statement::text(int column) const {

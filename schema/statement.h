@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,16 +29,22 @@ class Statement {
     void bind(int parameter, std::int64_t value);
     void bind(int parameter, std::string_view text);
     void bind(int parameter, std::span<const std::uint8_t> bytes);
+    // A name of its own: an int would fit both numbers equally well. NaN binds null.
+    void bind_real(int parameter, double value);
 
     // True with a row, false at the end (then the statement is reset).
     [[nodiscard]] Result<bool> step();
     // For a statement that gives no rows.
     [[nodiscard]] Result<void> run();
+    // For a statement that writes at most one row and returns an integer of it: that
+    // integer, or nothing where no row was written.
+    [[nodiscard]] Result<std::optional<std::int64_t>> run_returning();
     // Back to the start, all parameters null.
     void reset();
 
     // Require: step() returned true. Views last until the next step() or reset().
     [[nodiscard]] std::int64_t integer(int column) const;
+    [[nodiscard]] double real(int column) const;
     [[nodiscard]] std::string_view text(int column) const;
     [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;
     [[nodiscard]] bool is_null(int column) const;

@@ -84,11 +84,11 @@ Result<void> IndexFollower::load() {
         batch.clear();
         wake_merger();
     };
-    const Result<std::int64_t> sequence = connection_->images().for_each_signature(
-        [&](ImageId id, std::span<const std::uint8_t> bytes) {
-            Result<image::Signature> signature = image::decode_signature(bytes);
-            if (!signature) return note_damage(id, signature.error().message);
-            batch.push_back({id, std::move(signature).value()});
+    const Result<std::int64_t> sequence = connection_->images().for_each_searchable(
+        [&](const schema::SearchableImage& image) {
+            Result<image::Signature> signature = image::decode_signature(image.signature);
+            if (!signature) return note_damage(image.id, signature.error().message);
+            batch.push_back({image.id, std::move(signature).value()});
             if (batch.size() == kBatch) flush();
         });
     flush();

@@ -22,10 +22,9 @@ using Signatures = std::map<ImageId, std::vector<std::uint8_t>>;
 
 Signatures searchable(ImageStore& store, std::int64_t* sequence = nullptr) {
     Signatures found;
-    const auto last = expect(
-        store.for_each_signature([&](ImageId id, std::span<const std::uint8_t> bytes) {
-            found[id].assign(bytes.begin(), bytes.end());
-        }));
+    const auto last = expect(store.for_each_searchable([&](const SearchableImage& image) {
+        found[image.id].assign(image.signature.begin(), image.signature.end());
+    }));
     if (sequence != nullptr) *sequence = last;
     return found;
 }
@@ -159,14 +158,14 @@ TEST_F(ChangeSequence, TheScanBelongsToExactlyItsSequenceNumber) {
     bool wrote = false;
     Signatures seen;
     // Another connection commits while the scan stands on its first row.
-    const auto sequence = expect(
-        store_.for_each_signature([&](ImageId id, std::span<const std::uint8_t> bytes) {
+    const auto sequence =
+        expect(store_.for_each_searchable([&](const SearchableImage& image) {
             if (!wrote) {
                 wrote = true;
                 expect(writer.add(file_picture(77)));
                 expect(writer.remove(ImageId{5}));
             }
-            seen[id].assign(bytes.begin(), bytes.end());
+            seen[image.id].assign(image.signature.begin(), image.signature.end());
         }));
     EXPECT_EQ(sequence, before);
     EXPECT_EQ(seen.size(), 5u);

@@ -264,7 +264,7 @@ TEST(Failure, ABrokenPageIsAnErrorOfEveryFunctionThatMeetsIt) {
             expect_broken(store.get(ImageId{1}).error());
             expect_broken(store.get_many(std::vector{ImageId{1}}).error());
             expect_broken(store.signature(ImageId{1}).error());
-            expect_broken(store.for_each_signature(nothing).error());
+            expect_broken(store.for_each_searchable(nothing).error());
             expect_broken(store.changes_after(0, 10).error());
             expect_broken(store.list({}).error());
             expect_broken(store.update(ImageId{1}, file_picture(1)).error());
@@ -283,7 +283,7 @@ TEST(Failure, ABrokenPageIsAnErrorOfEveryFunctionThatMeetsIt) {
             expect_broken(store.get(ImageId{1}).error());
         } else {
             expect_broken(store.changes_after(0, 10).error());
-            expect_broken(store.for_each_signature(nothing).error());
+            expect_broken(store.for_each_searchable(nothing).error());
         }
         expect_broken(store.add(file_picture(1000)).error());
     }
@@ -322,8 +322,7 @@ TEST(Failure, AFileCutShortIsAnError) {
         return;
     }
     ImageStore store(*database);
-    expect_broken(
-        store.for_each_signature([](ImageId, std::span<const std::uint8_t>) {}).error());
+    expect_broken(store.for_each_searchable([](const SearchableImage&) {}).error());
 }
 
 }  // namespace

@@ -98,10 +98,9 @@ class Machine {
         EXPECT_EQ(stored.deleted, counts.deleted);
 
         std::map<ImageId, std::vector<std::uint8_t>> scanned;
-        expect(
-            store_.for_each_signature([&](ImageId id, std::span<const std::uint8_t> b) {
-                scanned[id].assign(b.begin(), b.end());
-            }));
+        expect(store_.for_each_searchable([&](const SearchableImage& image) {
+            scanned[image.id].assign(image.signature.begin(), image.signature.end());
+        }));
         EXPECT_EQ(scanned, searchable);
 
         std::vector<std::string> walked;

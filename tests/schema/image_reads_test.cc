@@ -226,8 +226,8 @@ TEST_F(ImageReads, AVisitorThatThrowsLeavesTheStoreUsable) {
     EXPECT_THROW(static_cast<void>(store_.for_each_file(
                      "", [](const KnownFile&, const std::string&) { throw 1; })),
                  int);
-    EXPECT_THROW(static_cast<void>(store_.for_each_signature(
-                     [](ImageId, std::span<const std::uint8_t>) { throw 1; })),
+    EXPECT_THROW(static_cast<void>(
+                     store_.for_each_searchable([](const SearchableImage&) { throw 1; })),
                  int);
     EXPECT_TRUE(store_.add(file_picture(3)));
     EXPECT_EQ(below("").size(), 3u);
