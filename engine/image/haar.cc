@@ -77,21 +77,57 @@ void decompose_columns(float* plane, int side, int column) {
     for (int c = 0; c < kWidth; ++c) plane[column + c] = values[0][c] * scale[c];
 }
 
-}  // namespace
-
-void decompose(std::span<float> plane, int side) {
-    assert(side >= 1 && side <= kMaxSide && std::has_single_bit(unsigned(side)));
-    assert(plane.size() == std::size_t(side) * side);
-    for (int i = 0; i < side; ++i) {
-        decompose_row(plane.data() + std::ptrdiff_t{i} * side, side);
-    }
+void decompose_standard(float* plane, int side) {
+    for (int i = 0; i < side; ++i) decompose_row(plane + std::ptrdiff_t{i} * side, side);
     constexpr int kStrip = 16;
     if (side >= kStrip) {
-        for (int j = 0; j < side; j += kStrip) {
-            decompose_columns<kStrip>(plane.data(), side, j);
-        }
+        for (int j = 0; j < side; j += kStrip) decompose_columns<kStrip>(plane, side, j);
     } else {
-        for (int j = 0; j < side; ++j) decompose_columns<1>(plane.data(), side, j);
+        for (int j = 0; j < side; ++j) decompose_columns<1>(plane, side, j);
+    }
+}
+
+// One row step and one column step are one step of 2 x 2 blocks
+//   a b
+//   c d
+// whose corners are added crosswise first: the symmetries of the square exchange a + d with
+// b + c, or a - d with b - c, and at most change a sign, so that they keep every bit.
+// The scale of level `half` is 1 / half, a power of two.
+void decompose_nonstandard(float* plane, int side) {
+    std::array<float, std::size_t{kMaxSide} * kMaxSide> means;
+    std::copy_n(plane, std::ptrdiff_t{side} * side, means.begin());
+    for (int half = side / 2; half > 0; half /= 2) {
+        const float scale = 0.25F / static_cast<float>(half);
+        for (int i = 0; i < half; ++i) {
+            const float* const upper = means.data() + std::ptrdiff_t{2} * i * 2 * half;
+            const float* const lower = upper + std::ptrdiff_t{2} * half;
+            float* const mean = means.data() + std::ptrdiff_t{i} * half;
+            float* const across = plane + std::ptrdiff_t{i} * side + half;
+            float* const down = plane + std::ptrdiff_t{half + i} * side;
+            for (int j = 0; j < half; ++j) {
+                const float falling_sum = upper[2 * j] + lower[2 * j + 1];
+                const float rising_sum = upper[2 * j + 1] + lower[2 * j];
+                const float falling_difference = upper[2 * j] - lower[2 * j + 1];
+                const float rising_difference = upper[2 * j + 1] - lower[2 * j];
+                across[j] = (falling_difference - rising_difference) * scale;
+                down[j] = (falling_difference + rising_difference) * scale;
+                down[half + j] = (falling_sum - rising_sum) * scale;
+                mean[j] = (falling_sum + rising_sum) * 0.25F;
+            }
+        }
+    }
+    plane[0] = means[0];
+}
+
+}  // namespace
+
+void decompose(std::span<float> plane, int side, Decomposition decomposition) {
+    assert(side >= 1 && side <= kMaxSide && std::has_single_bit(unsigned(side)));
+    assert(plane.size() == std::size_t(side) * side);
+    if (decomposition == Decomposition::kStandard) {
+        decompose_standard(plane.data(), side);
+    } else {
+        decompose_nonstandard(plane.data(), side);
     }
 }
 

@@ -18,7 +18,7 @@ std::vector<float> random_plane(int side, unsigned seed) {
 }
 
 std::vector<float> decomposed(std::vector<float> plane, int side) {
-    decompose(plane, side);
+    decompose(plane, side, Decomposition::kStandard);
     return plane;
 }
 
@@ -100,7 +100,7 @@ TEST(Haar, OfOneRowIsDecomposeArrayOfFigure4_1) {
     }
     std::vector<double> expected(plane.begin(), plane.begin() + kLength);
     decompose_array(expected);
-    decompose(equal_rows, kLength);
+    decompose(equal_rows, kLength, Decomposition::kStandard);
     for (int j = 0; j < kLength; ++j) ASSERT_NEAR(equal_rows[j], expected[j], 1e-6) << j;
 }
 
@@ -140,7 +140,7 @@ TEST(Haar, OfFourByFourByHand) {
 TEST(Haar, FlatImageHasNoCoefficients) {
     for (const float value : {0.0F, 0.1F, 1.0F, -0.3F, 1.0F / 3.0F}) {
         std::vector<float> plane(128 * 128, value);
-        decompose(plane, 128);
+        decompose(plane, 128, Decomposition::kStandard);
         EXPECT_EQ(plane[0], value);
         EXPECT_TRUE(std::all_of(
             plane.begin() + 1, plane.end(), [](float c) { return c == 0.0F; }));
@@ -168,7 +168,7 @@ TEST(Haar, OfTheMirrorImageIsExactlyThePermutedOriginal) {
                      mirrored.begin() + (y + 1) * kLength);
     }
     const std::vector<float> original = decomposed(plane, kLength);
-    decompose(mirrored, kLength);
+    decompose(mirrored, kLength, Decomposition::kStandard);
     for (int i = 0; i < kLength; ++i) {
         EXPECT_EQ(mirrored[i * kLength], original[i * kLength]);
         for (int level = 1; level < kLength; level *= 2) {
