@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ingest/stored_profile.h"
+
 namespace haarmony::ingest {
 
 using schema::Database;
@@ -17,6 +19,11 @@ Result<std::unique_ptr<StoredCatalogue>> StoredCatalogue::open(const std::string
 
 StoredCatalogue::StoredCatalogue(Database writer, Database reader)
     : writer_database_(std::move(writer)), reader_database_(std::move(reader)) {}
+
+Result<std::vector<image::SignatureKind>> StoredCatalogue::kinds_in_use() {
+    schema::ProfileStore profiles(reader_database_);
+    return ingest::kinds_in_use(profiles);
+}
 
 Result<std::optional<schema::KnownFile>> StoredCatalogue::look_up(
     const std::string& uri) {

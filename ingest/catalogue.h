@@ -10,8 +10,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
+#include "engine/image/signature_kind.h"
 #include "schema/database.h"
 #include "schema/image_store.h"
 
@@ -49,6 +51,9 @@ class StoredCatalogue final : public Catalogue {
     // Errors: as Database::open.
     [[nodiscard]] static Result<std::unique_ptr<StoredCatalogue>> open(
         const std::string& path);
+
+    // What the profiles of this database compare: see stored_profile.h.
+    [[nodiscard]] Result<std::vector<image::SignatureKind>> kinds_in_use();
 
     Result<std::optional<schema::KnownFile>> look_up(const std::string& uri) override;
     Result<void> transaction(const std::function<Result<void>()>& work) override;

@@ -3,20 +3,45 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 
 #include "engine/image/signature_codec.h"
 #include "ingest/thumbnail.h"
+#include "ingest/variant.h"
 
 namespace haarmony::ingest {
 
-Result<schema::NewImage> describe(Decoder& decoder, std::span<const std::uint8_t> bytes) {
+namespace {
+
+void append_named(std::span<const image::Signature> signatures,
+                  Look look,
+                  std::vector<schema::SignatureVariant>& variants) {
+    for (const image::Signature& signature : signatures) {
+        variants.push_back(
+            {variant_name(signature.kind, look), image::encode_signature(signature)});
+    }
+}
+
+}  // namespace
+
+std::vector<schema::SignatureVariant> signature_variants(
+    const ImageView& picture,
+    std::span<const image::SignatureKind> kinds) {
+    std::vector<schema::SignatureVariant> variants;
+    append_named(image::make_signatures(picture, kinds), Look::kWhole, variants);
+    return variants;
+}
+
+Result<schema::NewImage> describe(Decoder& decoder,
+                                  std::span<const std::uint8_t> bytes,
+                                  std::span<const image::SignatureKind> kinds) {
+    assert(!kinds.empty() && kinds.front() == image::SignatureKind{});
     const Result<Picture> picture = decoder.decode(bytes);
     if (!picture) return picture.error();
     Result<std::vector<std::uint8_t>> thumbnail = make_thumbnail(picture->view());
     if (!thumbnail) return thumbnail.error();
-    const image::Signature signature = image::make_signature(picture->view());
 
     schema::NewImage image;
     image.stamp.size = static_cast<std::int64_t>(bytes.size());
@@ -24,17 +49,13 @@ Result<schema::NewImage> describe(Decoder& decoder, std::span<const std::uint8_t
     image.width = picture->width;
     image.height = picture->height;
     image.media_type = picture->media_type;
-    image.signature = image::encode_signature(signature);
-    image.low_information = signature.low_information;
+    const std::vector<image::Signature> signatures =
+        image::make_signatures(picture->view(), kinds);
+    image.signature = image::encode_signature(signatures.front());
+    image.low_information = signatures.front().low_information;
+    append_named(std::span(signatures).subspan(1), Look::kWhole, image.variants);
     image.thumbnail = {"image/jpeg", std::move(thumbnail).value()};
     return image;
-}
-
-Result<image::Signature> describe_query(Decoder& decoder,
-                                        std::span<const std::uint8_t> bytes) {
-    const Result<Picture> picture = decoder.decode(bytes);
-    if (!picture) return picture.error();
-    return image::make_signature(picture->view());
 }
 
 std::string content_hash(std::span<const std::uint8_t> bytes) {

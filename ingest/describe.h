@@ -3,9 +3,11 @@
 // and queries, so that a picture always finds itself at distance 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/image/signature.h"
@@ -14,15 +16,21 @@
 
 namespace haarmony::ingest {
 
-// Decodes, makes signature and thumbnail, hashes the bytes. Fills everything but origin,
-// uri, mtime, tags and metadata.
-[[nodiscard]] Result<schema::NewImage> describe(Decoder& decoder,
-                                                std::span<const std::uint8_t> bytes);
+// The kinds of a collection whose profiles are the built-in ones.
+inline constexpr std::array<image::SignatureKind, 1> kMainKind{};
 
-// Only the signature: what a query needs.
-[[nodiscard]] Result<image::Signature> describe_query(
+// Decodes, makes the signatures and the thumbnail, hashes the bytes. Fills everything but
+// origin, uri, mtime, tags and metadata. Requires: `kinds` starts with the default kind.
+[[nodiscard]] Result<schema::NewImage> describe(
     Decoder& decoder,
-    std::span<const std::uint8_t> bytes);
+    std::span<const std::uint8_t> bytes,
+    std::span<const image::SignatureKind> kinds);
+
+// The signatures of one picture under their names (variant.h): those of `kinds`, in their
+// order, and then those of what is within its borders, where it has borders.
+[[nodiscard]] std::vector<schema::SignatureVariant> signature_variants(
+    const ImageView& picture,
+    std::span<const image::SignatureKind> kinds);
 
 // Lower-case hex of SHA-256.
 [[nodiscard]] std::string content_hash(std::span<const std::uint8_t> bytes);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "ingest/catalogue.h"
@@ -80,6 +81,11 @@ int main(int argc, char** argv) {
         complain(catalogue.error());
         return kCouldNotRun;
     }
+    auto kinds = catalogue.value()->kinds_in_use();
+    if (!kinds) {
+        complain(kinds.error());
+        return kCouldNotRun;
+    }
     line->pipeline.walk.own_files = ingest::database_files(line->database);
     const ingest::ProgressMode mode = line->progress.value_or(
         ::isatty(STDOUT_FILENO) != 0 ? ingest::ProgressMode::kBar
@@ -88,8 +94,12 @@ int main(int argc, char** argv) {
 
     ingest::Progress progress(
         mode, terminal_columns(), std::cout, std::cerr, ingest::Progress::Clock::now);
-    const ingest::Report report = ingest::run(
-        line->pipeline, **catalogue, ingest::make_picture_steps, progress, stop);
+    const ingest::Report report =
+        ingest::run(line->pipeline,
+                    **catalogue,
+                    ingest::picture_steps(std::move(kinds).value()),
+                    progress,
+                    stop);
     progress.done(report.tally);
     if (!report.outcome) complain(report.outcome.error());
     return exit_code(report);

@@ -1,4 +1,5 @@
 #include <memory>
+#include <utility>
 
 #include "ingest/decode.h"
 #include "ingest/describe.h"
@@ -6,12 +7,14 @@
 
 namespace haarmony::ingest {
 
-PictureSteps make_picture_steps() {
-    const auto decoder = std::make_shared<Decoder>(DecodeLimits{});
-    return {[decoder](std::span<const std::uint8_t> bytes) {
-                return describe(*decoder, bytes);
-            },
-            content_hash};
+MakePictureSteps picture_steps(std::vector<image::SignatureKind> kinds) {
+    return [kinds = std::move(kinds)]() -> PictureSteps {
+        const auto decoder = std::make_shared<Decoder>(DecodeLimits{});
+        return {[decoder, kinds](std::span<const std::uint8_t> bytes) {
+                    return describe(*decoder, bytes, kinds);
+                },
+                content_hash};
+    };
 }
 
 }  // namespace haarmony::ingest

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/image/signature_kind.h"
 #include "ingest/catalogue.h"
 #include "ingest/tally.h"
 #include "ingest/walk.h"
@@ -37,8 +38,8 @@ struct PictureSteps {
 };
 using MakePictureSteps = std::function<PictureSteps()>;
 
-// The real ones: decode.h, describe.h.
-[[nodiscard]] PictureSteps make_picture_steps();
+// The real ones: decode.h, describe.h. Requires: `kinds` starts with the default kind.
+[[nodiscard]] MakePictureSteps picture_steps(std::vector<image::SignatureKind> kinds);
 
 struct PipelineOptions {
     std::vector<std::string> paths = {};

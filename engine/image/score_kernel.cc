@@ -16,8 +16,8 @@ void add_term(std::int32_t weight,
               std::int32_t query,
               std::span<const std::int32_t> targets,
               std::span<Score> scores) {
-    assert(targets.size() == scores.size());
     if (weight == 0) return;
+    assert(targets.size() == scores.size());
     const auto factor = static_cast<std::uint32_t>(weight);
     const std::int32_t* const target = targets.data();
     for (std::size_t i = 0; i < scores.size(); ++i) {

@@ -21,7 +21,8 @@ struct SlotColumns {
 
 // scores[i] = score(query, (averages[0][i], averages[1][i], averages[2][i]),
 //                   log_aspects[i], matched[i]).
-// Requires: all spans are as long as `scores`. Cost: a column whose weight is 0 is not read.
+// Requires: all spans are as long as `scores`; a column whose weight is 0 is not read and
+// may be empty.
 void score_slots(const Query& query,
                  const SlotColumns& columns,
                  std::span<const std::int32_t> matched,

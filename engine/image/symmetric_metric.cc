@@ -27,7 +27,7 @@ BothWays compare(const Signature& a, const Signature& b, const Profile& profile,
         if (other == both.from_b.terms.end()) break;
         if (other->key == term.key) matched_weight += term.weight;
     }
-    both.score = score(both.from_a, both.from_b.average, matched_weight);
+    both.score = score(both.from_a, both.from_b.average, 0, matched_weight);
     return both;
 }
 
@@ -80,7 +80,8 @@ void SignatureBlock::score(const Query& query, std::span<Score> scores) const {
     assert(query.m == m_ && scores.size() == weight_sums_.size());
     std::vector<std::int32_t> matched(scores.size(), 0);
     arrays_.add_matches(query, matched);
-    score_slots(query, {averages_[0], averages_[1], averages_[2]}, matched, scores);
+    score_slots(
+        query, {{averages_[0], averages_[1], averages_[2]}, {}}, matched, scores);
 }
 
 void SignatureBlock::symmetric_distances(const Query& query,

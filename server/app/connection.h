@@ -1,4 +1,4 @@
-// A database connection with the store that speaks through it.
+// A database connection with the stores that speak through it.
 //
 // Threads  one thread at a time: readers borrow from a ReadConnections pool, the one
 //          writer is shared under a mutex (image_service.cc).
@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "schema/database.h"
 #include "schema/image_store.h"
+#include "schema/profile_store.h"
 #include "server/app/lending_pool.h"
 
 namespace haarmony::server {
@@ -27,13 +28,15 @@ class Connection {
 
     [[nodiscard]] schema::Database& database() { return database_; }
     [[nodiscard]] schema::ImageStore& images() { return images_; }
+    [[nodiscard]] schema::ProfileStore& profiles() { return profiles_; }
 
   private:
     explicit Connection(schema::Database database)
-        : database_(std::move(database)), images_(database_) {}
+        : database_(std::move(database)), images_(database_), profiles_(database_) {}
 
     schema::Database database_;
     schema::ImageStore images_;
+    schema::ProfileStore profiles_;
 };
 
 using ReadConnections = LendingPool<Connection>;

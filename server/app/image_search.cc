@@ -1,65 +1,44 @@
 #include "server/app/image_search.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace haarmony::server {
 namespace {
 
-// Similarity falls as the score grows, so what is too far off is the tail of the list.
-void cut_below(double min_similarity,
-               const image::Query& query,
-               std::vector<image::Match>& matches) {
-    const auto first_below =
-        std::find_if(matches.begin(), matches.end(), [&](const image::Match& match) {
-            return image::similarity(query, match.score) < min_similarity;
-        });
-    matches.erase(first_below, matches.end());
-}
-
 // Both lists are in the order of rank; `rows` lacks those that are gone.
-std::vector<FoundImage> join(const image::Query& query,
-                             const std::vector<image::Match>& matches,
+std::vector<FoundImage> join(const std::vector<Candidate>& candidates,
                              std::vector<schema::Image> rows,
                              int limit) {
     std::vector<FoundImage> found;
-    auto match = matches.begin();
+    auto candidate = candidates.begin();
     for (schema::Image& row : rows) {
         if (static_cast<int>(found.size()) == limit) break;
-        while (match->id != row.id) ++match;
-        found.push_back({std::move(row),
-                         image::distance(query, match->score),
-                         image::similarity(query, match->score)});
+        while (candidate->id != row.id) ++candidate;
+        found.push_back({std::move(row), *candidate});
     }
     return found;
 }
 
 }  // namespace
 
-Result<Found> search_images(const image::IndexSnapshot& snapshot,
-                            const image::Query& query,
+Result<Found> search_images(const SearchPlan& plan,
                             int limit,
-                            std::optional<double> min_similarity,
+                            const image::IdSet* only,
                             ReadConnections& connections) {
     // Each round asks for as many more as the last one lacked; the rounds end because the
-    // snapshot does.
+    // snapshots do.
     for (int wanted = limit;;) {
-        image::SearchResult result = snapshot.search(query, {wanted});
-        const bool exhausted = static_cast<int>(result.matches.size()) < wanted;
-        const std::size_t ranked = result.matches.size();
-        if (min_similarity) cut_below(*min_similarity, query, result.matches);
-        const bool complete = exhausted || result.matches.size() < ranked;
-
+        const Candidates candidates = plan.best(wanted, only);
         std::vector<ImageId> ids;
-        for (const image::Match& match : result.matches) ids.push_back(match.id);
+        for (const Candidate& candidate : candidates.best) ids.push_back(candidate.id);
         auto connection = connections.lend();
         if (!connection) return connection.error();
         auto rows = (*connection)->images().get_many(ids);
         if (!rows) return std::move(rows).error();
         const int missing = static_cast<int>(ids.size() - rows->size());
-        if (complete || static_cast<int>(rows->size()) >= limit)
-            return Found{join(query, result.matches, std::move(rows).value(), limit),
-                         result.searched};
+        if (candidates.exhausted || static_cast<int>(rows->size()) >= limit)
+            return Found{join(candidates.best, std::move(rows).value(), limit),
+                         candidates.searched};
         wanted = limit + missing;
     }
 }

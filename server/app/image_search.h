@@ -1,25 +1,21 @@
-// From a query to rows: the index ranks, one read of the database tells what the matches
-// are.
+// From a plan to rows: the indexes rank, one read of the database tells what the matches are.
 //
 // Threads const-safe; holds no lock while scoring.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/image/index.h"
-#include "engine/image/query.h"
 #include "schema/image_store.h"
 #include "server/app/connection.h"
+#include "server/app/search_plan.h"
 
 namespace haarmony::server {
 
 struct FoundImage {
     schema::Image image;
-    double distance = 0;    // equation (4.3)
-    double similarity = 0;  // 0..1
+    Candidate match;
 };
 
 struct Found {
@@ -27,13 +23,11 @@ struct Found {
     std::int64_t searched = 0;
 };
 
-// The `limit` best matches that are at least `min_similarity` similar. A picture that was
-// deleted after the snapshot was taken is left out, and the next best takes its place.
-// Requires: query.m <= the index's m; limit >= 1.
-[[nodiscard]] Result<Found> search_images(const image::IndexSnapshot& snapshot,
-                                          const image::Query& query,
+// The `limit` best matches. A picture that was deleted after the snapshots were taken is left
+// out, and the next best takes its place. Requires: limit >= 1.
+[[nodiscard]] Result<Found> search_images(const SearchPlan& plan,
                                           int limit,
-                                          std::optional<double> min_similarity,
+                                          const image::IdSet* only,
                                           ReadConnections& connections);
 
 }  // namespace haarmony::server

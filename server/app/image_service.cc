@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/image/query.h"
+#include "engine/image/aspect.h"
 #include "engine/image/signature_codec.h"
+#include "ingest/stored_profile.h"
+#include "ingest/variant.h"
 #include "server/app/log_value.h"
 
 namespace haarmony::server {
@@ -76,7 +78,10 @@ Result<ServiceStatus> ImageService::status() {
     if (!rows) return rows.error();
     ServiceStatus status;
     status.rows = rows.value();
-    status.index = follower_->snapshot()->stats();
+    const Snapshots snapshots = follower_->snapshots();
+    status.index = total_stats(snapshots);
+    for (const auto& [variant, snapshot] : snapshots)
+        status.variants.emplace_back(variant, snapshot->stats().images);
     status.sequence = follower_->sequence();
     status.damaged = follower_->damaged();
     status.index_m = follower_->index_m();
@@ -84,21 +89,67 @@ Result<ServiceStatus> ImageService::status() {
     return status;
 }
 
-Result<SearchAnswer> ImageService::search(const image::Signature& signature,
+Result<SearchAnswer> ImageService::search(const QueryPicture& picture,
                                           const SearchOptions& options) {
     if (!ready())
         return Error{ErrorCode::kUnavailable, "the collection is still being loaded"};
-    const int m = std::min(options.m.value_or(options.profile.m), follower_->index_m());
-    const image::Query query = image::make_query(signature, options.profile, m);
-    Result<Found> found = search_images(
-        *follower_->snapshot(), query, options.limit, options.min_similarity, readers_);
+    Result<SearchPlan> plan = SearchPlan::make(
+        picture, options.plan, follower_->snapshots(), follower_->index_m());
+    if (!plan) return std::move(plan).error();
+
+    std::optional<image::IdSet> only;
+    if (!options.filter.text.empty() || !options.filter.tags.empty()) {
+        const auto ids = read(
+            [&](schema::ImageStore& images) { return images.matching(options.filter); });
+        if (!ids) return ids.error();
+        only.emplace(ids.value());
+    }
+    Result<Found> found =
+        search_images(plan.value(), options.limit, only ? &*only : nullptr, readers_);
     if (!found) return std::move(found).error();
-    return SearchAnswer{std::move(found).value(), m};
+    return SearchAnswer{std::move(plan).value(), std::move(found).value()};
+}
+
+Result<QueryPicture> ImageService::stored_picture(
+    ImageId id,
+    std::span<const image::SignatureKind> kinds,
+    bool content) {
+    const Result<schema::Image> row = get(id);
+    if (!row) return row.error();
+    QueryPicture picture;
+    picture.log_aspect =
+        image::log_aspect(std::max(1, row->width), std::max(1, row->height));
+    for (const image::SignatureKind& kind : kinds) {
+        Result<image::Signature> found = Error{ErrorCode::kNotFound, ""};
+        if (content) found = signature(id, variant_name(kind, ingest::Look::kContent));
+        if (!found) found = signature(id, variant_name(kind, ingest::Look::kWhole));
+        if (found) {
+            picture.signatures.emplace(kind, std::move(found).value());
+        } else if (found.error().code != ErrorCode::kNotFound) {
+            return std::move(found).error();
+        }
+    }
+    return picture;
+}
+
+Result<image::Profile> ImageService::profile(std::string_view name) {
+    auto connection = readers_.lend();
+    if (!connection) return logged(Result<image::Profile>(connection.error()));
+    return logged(ingest::find_profile((*connection)->profiles(), name));
+}
+
+Result<std::vector<image::SignatureKind>> ImageService::kinds_in_use() {
+    auto connection = readers_.lend();
+    if (!connection)
+        return logged(Result<std::vector<image::SignatureKind>>(connection.error()));
+    return logged(ingest::kinds_in_use((*connection)->profiles()));
 }
 
 Result<ImageId> ImageService::add(std::span<const std::uint8_t> picture,
                                   const ImageAttributes& attributes) {
-    Result<schema::NewImage> described = pictures_.describe(picture);
+    const auto kinds = kinds_in_use();
+    if (!kinds) return kinds.error();
+    Result<schema::NewImage> described = pictures_.describe(picture, kinds.value());
     if (!described) return std::move(described).error();
     schema::NewImage& row = described.value();
     row.origin = schema::ImageOrigin::kUpload;
@@ -122,8 +173,14 @@ Result<std::vector<schema::Image>> ImageService::list(
 }
 
 Result<image::Signature> ImageService::signature(ImageId id) {
-    const Result<std::vector<std::uint8_t>> bytes =
-        read([&](schema::ImageStore& images) { return images.signature(id); });
+    return signature(id, ingest::kMainVariant);
+}
+
+Result<image::Signature> ImageService::signature(ImageId id, std::string_view variant) {
+    const Result<std::vector<std::uint8_t>> bytes = read([&](schema::ImageStore& images) {
+        return variant == ingest::kMainVariant ? images.signature(id)
+                                               : images.signature(id, variant);
+    });
     if (!bytes) return bytes.error();
     Result<image::Signature> signature = image::decode_signature(bytes.value());
     if (signature) return signature;

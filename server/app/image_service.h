@@ -17,6 +17,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/image/profile.h"
@@ -38,15 +40,14 @@ struct ImageServiceOptions {
 };
 
 struct SearchOptions {
-    image::Profile profile;
-    std::optional<int> m;  // the profile's where absent
+    PlanOptions plan;
     int limit = 20;
-    std::optional<double> min_similarity;
+    schema::ImageFilter filter;  // only pictures that match it; empty: all
 };
 
 struct SearchAnswer {
+    SearchPlan plan;
     Found found;
-    int m = 0;  // that was used: never above the index's
 };
 
 // What a client says about a picture, beside its pixels.
@@ -58,7 +59,8 @@ struct ImageAttributes {
 
 struct ServiceStatus {
     schema::Counts rows;
-    image::IndexStats index;
+    image::IndexStats index;  // of all variants together
+    std::vector<std::pair<std::string, std::int64_t>> variants;  // live pictures in each
     std::int64_t sequence = 0;
     std::int64_t damaged = 0;
     int index_m = 0;
@@ -76,8 +78,15 @@ class ImageService {
 
     [[nodiscard]] PictureReader& pictures() { return pictures_; }
 
-    [[nodiscard]] Result<SearchAnswer> search(const image::Signature& signature,
+    [[nodiscard]] Result<SearchAnswer> search(const QueryPicture& picture,
                                               const SearchOptions& options);
+    // A stored picture as a query, in those kinds that are there. With `content`, what is
+    // within its borders where it has borders.
+    [[nodiscard]] Result<QueryPicture>
+    stored_picture(ImageId id, std::span<const image::SignatureKind> kinds, bool content);
+
+    // A built-in profile or a stored one, as it is now; kNotFound naming it.
+    [[nodiscard]] Result<image::Profile> profile(std::string_view name);
 
     [[nodiscard]] Result<ImageId> add(std::span<const std::uint8_t> picture,
                                       const ImageAttributes& attributes);
@@ -88,6 +97,8 @@ class ImageService {
         const schema::ListOptions& options);
     // kUndecodable where the stored bytes are damaged.
     [[nodiscard]] Result<image::Signature> signature(ImageId id);
+    [[nodiscard]] Result<image::Signature> signature(ImageId id,
+                                                     std::string_view variant);
     [[nodiscard]] Result<schema::Thumbnail> thumbnail(ImageId id);
 
     // Ends the background threads; the index answers as it is.
@@ -97,6 +108,8 @@ class ImageService {
     ImageService(const ImageServiceOptions& options,
                  std::unique_ptr<Connection> writer,
                  std::unique_ptr<IndexFollower> follower);
+
+    [[nodiscard]] Result<std::vector<image::SignatureKind>> kinds_in_use();
 
     // Runs `work` alone on the writing connection and brings the index up to it.
     template <typename Work>

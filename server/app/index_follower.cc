@@ -2,10 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "engine/image/aspect.h"
 #include "engine/image/signature_codec.h"
+#include "ingest/variant.h"
 #include "server/app/log_value.h"
 
 namespace haarmony::server {
@@ -32,15 +35,17 @@ Result<std::unique_ptr<IndexFollower>> IndexFollower::start(
 
 IndexFollower::IndexFollower(const FollowerOptions& options,
                              std::unique_ptr<Connection> connection)
-    : options_(options), index_(options.index), connection_(std::move(connection)) {}
+    : options_(options), indexes_(options.index), connection_(std::move(connection)) {}
 
 IndexFollower::~IndexFollower() { stop(); }
 
+Snapshots IndexFollower::snapshots() const { return indexes_.snapshots(); }
+
 std::shared_ptr<const image::IndexSnapshot> IndexFollower::snapshot() const {
-    return index_.snapshot();
+    return indexes_.snapshots().at(ingest::kMainVariant);
 }
 
-int IndexFollower::index_m() const { return index_.index_m(); }
+int IndexFollower::index_m() const { return indexes_.index_m(); }
 
 void IndexFollower::stop() {
     {
@@ -75,26 +80,24 @@ void IndexFollower::follow() {
 
 Result<void> IndexFollower::load() {
     const auto started = std::chrono::steady_clock::now();
-    std::vector<image::Record> batch;
+    std::vector<SearchablePicture> batch;
     batch.reserve(kBatch);
     std::vector<ImageId> loaded;
     const auto flush = [&] {
-        index_.apply(batch, {});
-        for (const image::Record& record : batch) loaded.push_back(record.id);
+        indexes_.apply(batch, {});
+        for (const SearchablePicture& picture : batch) loaded.push_back(picture.id);
         batch.clear();
         wake_merger();
     };
     const Result<std::int64_t> sequence = connection_->images().for_each_searchable(
         [&](const schema::SearchableImage& image) {
-            Result<image::Signature> signature = image::decode_signature(image.signature);
-            if (!signature) return note_damage(image.id, signature.error().message);
-            batch.push_back({image.id, std::move(signature).value()});
+            batch.push_back(read(image));
             if (batch.size() == kBatch) flush();
         });
     flush();
     if (!sequence) {
         // What is deleted before the next attempt would otherwise stay for ever.
-        index_.apply({}, loaded);
+        indexes_.apply({}, loaded);
         return sequence.error();
     }
     const std::chrono::duration<double> elapsed =
@@ -128,28 +131,44 @@ Result<void> IndexFollower::apply_changes() {
             connection_->images().changes_after(sequence_, kBatch);
         if (!changes) return std::move(changes).error();
         if (changes->empty()) return {};
-        std::vector<image::Record> upserts;
+        std::vector<SearchablePicture> pictures;
         std::vector<ImageId> removals;
         for (const schema::Change& change : changes.value()) {
             note_sound(change.id);
             if (change.signature.empty()) {
                 removals.push_back(change.id);
-                continue;
-            }
-            Result<image::Signature> signature =
-                image::decode_signature(change.signature);
-            if (signature) {
-                upserts.push_back({change.id, std::move(signature).value()});
             } else {
-                note_damage(change.id, signature.error().message);
-                removals.push_back(change.id);
+                pictures.push_back(read({change.id,
+                                         change.width,
+                                         change.height,
+                                         change.signature,
+                                         change.variants}));
             }
         }
-        index_.apply(upserts, removals);
+        indexes_.apply(pictures, removals);
         sequence_ = changes->back().sequence;
         wake_merger();
         if (changes->size() < kBatch) return {};
     }
+}
+
+SearchablePicture IndexFollower::read(const schema::SearchableImage& image) {
+    SearchablePicture picture;
+    picture.id = image.id;
+    // No picture has a side of 0, but a row that others wrote may.
+    picture.log_aspect =
+        image::log_aspect(std::max(1, image.width), std::max(1, image.height));
+    const auto add = [&](const std::string& variant,
+                         std::span<const std::uint8_t> bytes) {
+        Result<image::Signature> signature = image::decode_signature(bytes);
+        if (!signature)
+            return note_damage(image.id, variant + ": " + signature.error().message);
+        picture.signatures.emplace(variant, std::move(signature).value());
+    };
+    add(ingest::kMainVariant, image.signature);
+    for (const schema::SignatureVariant& variant : image.variants)
+        add(variant.variant, variant.signature);
+    return picture;
 }
 
 void IndexFollower::note_damage(ImageId id, const std::string& reason) {
@@ -173,7 +192,7 @@ void IndexFollower::merge() {
             merge_due_ = false;
         }
         // One merge may make the next one due; ask for more until there is none.
-        if (index_.merge_once()) wake_merger();
+        if (indexes_.merge_once()) wake_merger();
     }
 }
 

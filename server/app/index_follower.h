@@ -1,5 +1,5 @@
-// Keeps the search index equal to the database, whoever writes to it:
-//   SQLite (the truth) -> [index_follower] -> image::Index (a view of it)
+// Keeps the search indexes equal to the database, whoever writes to it:
+//   SQLite (the truth) -> [index_follower] -> variant_indexes (a view of it)
 //
 // A thread loads every signature, then polls for commits of other connections and applies
 // the changes in batches; a second thread merges segments. A stored signature that does not
@@ -24,6 +24,7 @@
 #include "engine/core/result.h"
 #include "engine/image/index.h"
 #include "server/app/connection.h"
+#include "server/app/variant_indexes.h"
 
 namespace haarmony::server {
 
@@ -44,10 +45,12 @@ class IndexFollower {
 
     // Whether the whole collection has been loaded.
     [[nodiscard]] bool ready() const { return ready_; }
+    [[nodiscard]] Snapshots snapshots() const;
+    // Of the first signatures, which every searchable picture has.
     [[nodiscard]] std::shared_ptr<const image::IndexSnapshot> snapshot() const;
     [[nodiscard]] int index_m() const;
-    // The last change that the index contains, and how many stored signatures it lacks
-    // because they are damaged.
+    // The last change that the indexes contain, and how many pictures lack a signature there
+    // because the stored one is damaged.
     [[nodiscard]] std::int64_t sequence() const { return sequence_; }
     [[nodiscard]] std::int64_t damaged() const { return damaged_count_; }
 
@@ -55,7 +58,7 @@ class IndexFollower {
     // it. Before ready() it does nothing: loading ends with the same step.
     [[nodiscard]] Result<void> catch_up();
 
-    // Ends both threads; the index stays as it is.
+    // Ends both threads; the indexes stay as they are.
     void stop();
 
   private:
@@ -66,15 +69,17 @@ class IndexFollower {
     [[nodiscard]] Result<void> load();
     [[nodiscard]] Result<void> poll();
     [[nodiscard]] Result<void> apply_changes();
+    // What of a picture can be searched; damaged signatures are noted and left out.
+    [[nodiscard]] SearchablePicture read(const schema::SearchableImage& image);
     void note_damage(ImageId id, const std::string& reason);
     void note_sound(ImageId id);
     void wake_merger();
     bool wait(std::chrono::milliseconds period);  // false: time to stop
 
     const FollowerOptions options_;
-    image::Index index_;
+    VariantIndexes indexes_;
 
-    // Guards connection_, damaged_ and the order of Index::apply. While loading, the
+    // Guards connection_, damaged_ and the order of apply(). While loading, the
     // follower's thread owns them without it: catch_up() looks at loaded_ first.
     std::mutex apply_mutex_;
     std::unique_ptr<Connection> connection_;

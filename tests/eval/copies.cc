@@ -104,7 +104,7 @@ Result<CopiesReport> measure_copies(const CopiesOptions& options) {
     const auto start = Clock::now();
     for (const std::string& path : paths) {
         const Result<schema::NewImage> described =
-            ingest::describe(decoder, read_bytes(path));
+            ingest::describe(decoder, read_bytes(path), ingest::kMainKind);
         if (!described) {
             report.unreadable.push_back(path + ": " + described.error().message);
             continue;
