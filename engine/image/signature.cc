@@ -25,51 +25,53 @@ bool operator==(const ChannelSignature& a, const ChannelSignature& b) {
 
 namespace {
 
-void decompose_all(ColorPlanes& planes, Decomposition decomposition) {
-    static_assert(kSide <= kMaxSide);
-    for (Plane& plane : planes) decompose(plane, kSide, decomposition);
-}
+// The kind that the wavelet energy is measured in, wanted or not.
+constexpr SignatureKind kMeasured;
 
-Signature truncate_all(const ColorPlanes& coefficients, const SignatureKind& kind) {
+// Makes signatures of other kinds from the cells of one picture, a plane at a time.
+class FromCells {
+  public:
+    explicit FromCells(const ColorPlanes& rgb)
+        : rgb_(rgb),
+          converted_(std::make_unique_for_overwrite<ColorPlanes>()),
+          plane_(std::make_unique_for_overwrite<Plane>()) {}
+
+    Signature make(const SignatureKind& kind) {
+        if (space_ != kind.color_space) {
+            *converted_ = rgb_;
+            convert(kind.color_space, *converted_);
+            space_ = kind.color_space;
+        }
+        Signature signature;
+        signature.kind = kind;
+        for (int c = 0; c < kChannels; ++c) {
+            *plane_ = (*converted_)[c];
+            decompose(*plane_, kSide, kind.decomposition);
+            signature.channels[c] = truncate(*plane_);
+        }
+        return signature;
+    }
+
+  private:
+    const ColorPlanes& rgb_;
+    std::unique_ptr<ColorPlanes> converted_;
+    std::unique_ptr<Plane> plane_;
+    std::optional<ColorSpace> space_;  // of converted_
+};
+
+// The signature of kind kMeasured, made in place, and whether there is information.
+Signature measure(ColorPlanes& planes) {
     Signature signature;
-    signature.kind = kind;
-    for (int c = 0; c < kChannels; ++c) {
-        signature.channels[c] = truncate(coefficients[c]);
-    }
-    return signature;
-}
-
-std::vector<Signature> signatures_of_cells(const ColorPlanes& rgb,
-                                           std::span<const SignatureKind> kinds) {
-    constexpr SignatureKind kMeasured;
-    const auto measured = std::make_unique<ColorPlanes>(rgb);
-    convert(kMeasured.color_space, *measured);
-    decompose_all(*measured, kMeasured.decomposition);
+    signature.kind = kMeasured;
+    convert(kMeasured.color_space, planes);
     double energy = 0.0;
-    for (const Plane& plane : *measured) energy += wavelet_energy(plane);
-
-    const auto converted = std::make_unique_for_overwrite<ColorPlanes>();
-    const auto coefficients = std::make_unique_for_overwrite<ColorPlanes>();
-    std::optional<ColorSpace> space;
-    std::vector<Signature> signatures;
-    for (const SignatureKind& kind : kinds) {
-        if (kind == kMeasured) {
-            signatures.push_back(truncate_all(*measured, kind));
-            continue;
-        }
-        if (space != kind.color_space) {
-            *converted = rgb;
-            convert(kind.color_space, *converted);
-            space = kind.color_space;
-        }
-        *coefficients = *converted;
-        decompose_all(*coefficients, kind.decomposition);
-        signatures.push_back(truncate_all(*coefficients, kind));
+    for (int c = 0; c < kChannels; ++c) {
+        decompose(planes[c], kSide, kMeasured.decomposition);
+        energy += wavelet_energy(planes[c]);
+        signature.channels[c] = truncate(planes[c]);
     }
-    for (Signature& signature : signatures) {
-        signature.low_information = energy < kLowInformationEnergy;
-    }
-    return signatures;
+    signature.low_information = energy < kLowInformationEnergy;
+    return signature;
 }
 
 }  // namespace
@@ -84,9 +86,23 @@ Signature make_signature(const ImageView& picture) {
 
 std::vector<Signature> make_signatures(const ImageView& picture,
                                        std::span<const SignatureKind> kinds) {
-    const auto rgb = std::make_unique_for_overwrite<ColorPlanes>();
-    area_average(picture, *rgb);
-    return signatures_of_cells(*rgb, kinds);
+    static_assert(kSide <= kMaxSide);
+    const auto planes = std::make_unique_for_overwrite<ColorPlanes>();
+    area_average(picture, *planes);
+
+    std::vector<Signature> signatures(kinds.size());
+    std::optional<FromCells> cells;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == kMeasured) continue;
+        if (!cells) cells.emplace(*planes);
+        signatures[i] = cells->make(kinds[i]);
+    }
+    const Signature measured = measure(*planes);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == kMeasured) signatures[i] = measured;
+        signatures[i].low_information = measured.low_information;
+    }
+    return signatures;
 }
 
 }  // namespace haarmony::image

@@ -1,5 +1,5 @@
-// Whatever bytes come in: refused with a reason, or a signature whose bytes, text and open
-// form are the same again.
+// Whatever bytes come in, of every kind: refused with a reason, or a signature whose bytes,
+// text and open form are the same again, and which can be mirrored and turned.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,25 @@
 #include <vector>
 
 #include "engine/image/signature_codec.h"
+#include "engine/image/symmetry.h"
 
 namespace {
 
 using haarmony::Result;
 using haarmony::image::Signature;
+using haarmony::image::Symmetry;
 
 void require(bool holds) {
     if (!holds) std::abort();
+}
+
+// A signature that was accepted stays acceptable in every position, and comes back.
+void check_symmetries(const Signature& signature) {
+    for (const Symmetry symmetry : haarmony::image::kSymmetries) {
+        const Signature moved = haarmony::image::transformed(signature, symmetry);
+        require(haarmony::image::decode_signature(encode_signature(moved)).has_value());
+        require(transformed(moved, haarmony::image::inverse(symmetry)) == signature);
+    }
 }
 
 void check(std::span<const std::uint8_t> bytes) {
@@ -28,7 +39,9 @@ void check(std::span<const std::uint8_t> bytes) {
     const std::vector<std::uint8_t> again = haarmony::image::encode_signature(*decoded);
     require(std::ranges::equal(again, bytes));
     const auto opened = haarmony::image::from_open(haarmony::image::to_open(*decoded));
-    require(opened && opened->channels == decoded->channels);
+    require(opened && opened->kind == decoded->kind);
+    require(opened->channels == decoded->channels);
+    check_symmetries(*decoded);
 }
 
 void check_text(std::string_view text) {

@@ -4,9 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <random>
 #include <utility>
 #include <vector>
 
+#include "engine/image/color_space.h"
+#include "engine/image/haar.h"
+#include "engine/image/resample.h"
+#include "engine/image/truncation.h"
+#include "tests/engine/image/all_kinds.h"
 #include "tests/engine/image/pictures.h"
 
 namespace haarmony::image {
@@ -147,6 +154,102 @@ TEST(Signature, LowInformationIsADeviationBelowOneLevel) {
         const Signature signature = make_signature(picture.view());
         EXPECT_EQ(signature.low_information, step == 1) << step;
         EXPECT_GT(signature.channels[0].count, 0);
+    }
+}
+
+// The same steps, one after the other, for every kind.
+TEST(Signature, OfAKindIsItsSpaceItsDecompositionAndTruncation) {
+    const Pixels picture = scene(200, 150, 44);
+    for (const SignatureKind& kind : all_kinds()) {
+        const Signature signature = make_signature(picture.view(), kind);
+        const auto planes = std::make_unique<ColorPlanes>();
+        area_average(picture.view(), *planes);
+        convert(kind.color_space, *planes);
+        EXPECT_EQ(signature.kind, kind);
+        for (int c = 0; c < kChannels; ++c) {
+            decompose((*planes)[c], kSide, kind.decomposition);
+            EXPECT_EQ(signature.channels[c], truncate((*planes)[c]))
+                << kind_name(kind) << " channel " << c;
+        }
+    }
+}
+
+TEST(Signature, IsYiqStandardUnlessAKindIsAskedFor) {
+    const Pixels picture = scene(70, 90, 45);
+    EXPECT_EQ(
+        make_signature(picture.view()),
+        make_signature(picture.view(), {ColorSpace::kYiq, Decomposition::kStandard}));
+}
+
+TEST(Signature, OfManyKindsAreThoseOfEachAlone) {
+    const Pixels picture = scene(200, 150, 46);
+    std::vector<SignatureKind> kinds = all_kinds();
+    std::mt19937 random(47);
+    for (int round = 0; round < 5; ++round) {
+        const std::vector<Signature> signatures = make_signatures(picture.view(), kinds);
+        ASSERT_EQ(signatures.size(), kinds.size());
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            EXPECT_EQ(signatures[i], make_signature(picture.view(), kinds[i]))
+                << kind_name(kinds[i]);
+        }
+        std::ranges::shuffle(kinds, random);
+        kinds.push_back(kinds.front());  // a kind twice is made twice
+    }
+    EXPECT_TRUE(make_signatures(picture.view(), {}).empty());
+}
+
+TEST(Signature, OfGreyHasNoChromaInAnySpaceThatHasOne) {
+    const Pixels picture = noise(200, 150, 1, 48);
+    for (const SignatureKind& kind : all_kinds()) {
+        if (kind.color_space == ColorSpace::kRgb) continue;
+        const Signature signature = make_signature(picture.view(), kind);
+        EXPECT_EQ(signature.channels[0].count, kMaxCoefficients) << kind_name(kind);
+        for (const int chroma : {1, 2}) {
+            EXPECT_EQ(signature.channels[chroma].count, 0) << kind_name(kind);
+            EXPECT_EQ(signature.channels[chroma].average, 0) << kind_name(kind);
+        }
+    }
+}
+
+// Checkerboards of more and more levels: Lab and Luv would see more in the dark ones and HSV
+// in the reddish ones than YIQ does.
+TEST(Signature, LowInformationIsTheSameInEveryKind) {
+    int low = 0;
+    int high = 0;
+    const std::vector<SignatureKind> kinds = all_kinds();
+    for (const int base : {0, 3, 120, 250}) {
+        for (int step = 0; step <= 4; ++step) {
+            Pixels picture = flat(kSide, kSide, {0, 0, 0});
+            for (int y = 0; y < kSide; ++y) {
+                for (int x = 0; x < kSide; ++x) {
+                    const int value = base + ((x + y) % 2 == 0 ? step : 0);
+                    picture.at(x, y, 0) = static_cast<std::uint8_t>(value);
+                }
+            }
+            const bool expected = make_signature(picture.view()).low_information;
+            ++(expected ? low : high);
+            for (const Signature& signature : make_signatures(picture.view(), kinds)) {
+                EXPECT_EQ(signature.low_information, expected)
+                    << kind_name(signature.kind) << " at " << base << " + " << step;
+            }
+            const auto alone = make_signature(
+                picture.view(), {ColorSpace::kLab, Decomposition::kNonstandard});
+            EXPECT_EQ(alone.low_information, expected);
+        }
+    }
+    EXPECT_GT(low, 0);
+    EXPECT_GT(high, 0);
+}
+
+TEST(Signature, OfOtherKindsIsNeverEqual) {
+    const Pixels picture = flat(4, 4, {0, 0, 0});
+    const std::vector<Signature> signatures =
+        make_signatures(picture.view(), all_kinds());
+    for (std::size_t i = 0; i < signatures.size(); ++i) {
+        for (std::size_t j = 0; j < signatures.size(); ++j) {
+            EXPECT_EQ(signatures[i].channels, signatures[j].channels);
+            EXPECT_EQ(signatures[i] == signatures[j], i == j);
+        }
     }
 }
 
