@@ -16,41 +16,44 @@ namespace {
 constexpr std::uint8_t kMagic0 = 'H';
 constexpr std::uint8_t kMagic1 = 'S';
 constexpr std::uint8_t kVersion = 1;
-constexpr std::uint8_t kAlgorithm = 1;      // signs and indices of the largest
-constexpr std::uint8_t kColorSpace = 1;     // YIQ
-constexpr std::uint8_t kDecomposition = 1;  // standard
+constexpr std::uint8_t kAlgorithm = 1;  // signs and indices of the largest
 constexpr std::uint8_t kLowInformationFlag = 1;
+constexpr std::size_t kColorSpaceOffset = 4;
+constexpr std::size_t kDecompositionOffset = 5;
 constexpr std::size_t kAverageOffset = 8;
 constexpr std::size_t kCountOffset = 20;
 
-constexpr std::array<char, kChannels> kChannelName = {'Y', 'I', 'Q'};
-
-// A mean is the end of 14 additions in float, each rounded by at most 2^-24 of its size.
+// A mean is the end of 14 additions in float, each rounded by at most 2^-24 of its size, which
+// is below 2 in every colour space.
 constexpr double kAverageSlack = 32.0 / double{kAverageOne};
 
 Error invalid(std::string message) {
     return Error{ErrorCode::kInvalidArgument, std::move(message), "signature"};
 }
 
-std::string in_channel(int channel) {
-    return std::string(" in channel ") + kChannelName[channel];
-}
+// A channel of a colour space, as messages name it.
+struct ChannelOf {
+    ColorSpace space;
+    int channel;
+
+    [[nodiscard]] std::string text() const {
+        return " in channel " + std::string(channel_name(space, channel));
+    }
+};
 
 // The reason why `average` cannot be the mean of this channel.
-std::optional<Error> check_average(int channel, double average) {
-    constexpr std::array<double, kChannels> kLowest = {0.0, -kMaxI, -kMaxQ};
-    constexpr std::array<double, kChannels> kHighest = {1.0, kMaxI, kMaxQ};
-    const double lowest = kLowest[channel] - kAverageSlack;
-    const double highest = kHighest[channel] + kAverageSlack;
-    if (average >= lowest && average <= highest) return std::nullopt;
-    return invalid("average " + std::to_string(average) + in_channel(channel) +
-                   " is outside [" + std::to_string(kLowest[channel]) + ", " +
-                   std::to_string(kHighest[channel]) + "]");
+std::optional<Error> check_average(const ChannelOf& channel, double average) {
+    const auto [lowest, highest] = channel_range(channel.space, channel.channel);
+    if (average >= lowest - kAverageSlack && average <= highest + kAverageSlack)
+        return std::nullopt;
+    return invalid("average " + std::to_string(average) + channel.text() +
+                   " is outside [" + std::to_string(lowest) + ", " +
+                   std::to_string(highest) + "]");
 }
 
-std::optional<Error> check_count(int channel, std::size_t count) {
+std::optional<Error> check_count(const ChannelOf& channel, std::size_t count) {
     if (count <= std::size_t{kMaxCoefficients}) return std::nullopt;
-    return invalid(std::to_string(count) + " coefficients" + in_channel(channel) +
+    return invalid(std::to_string(count) + " coefficients" + channel.text() +
                    ", at most " + std::to_string(kMaxCoefficients));
 }
 
@@ -58,17 +61,16 @@ std::optional<Error> check_count(int channel, std::size_t count) {
 // Requires: at most kMaxCoefficients calls for a channel.
 class IndexReader {
   public:
-    explicit IndexReader(int channel) : channel_(channel) {}
+    explicit IndexReader(const ChannelOf& channel) : channel_(channel) {}
 
     std::optional<Error> add(int signed_index, ChannelSignature& out) {
         const std::int64_t index = std::abs(std::int64_t{signed_index});
         if (index == 0 || index >= kCoefficientCount) {
-            return invalid("index " + std::to_string(signed_index) +
-                           in_channel(channel_) + " is outside 1.." +
-                           std::to_string(kCoefficientCount - 1));
+            return invalid("index " + std::to_string(signed_index) + channel_.text() +
+                           " is outside 1.." + std::to_string(kCoefficientCount - 1));
         }
         if (seen_.test(std::size_t(index))) {
-            return invalid("index " + std::to_string(index) + in_channel(channel_) +
+            return invalid("index " + std::to_string(index) + channel_.text() +
                            " is there twice");
         }
         seen_.set(std::size_t(index));
@@ -77,7 +79,7 @@ class IndexReader {
     }
 
   private:
-    int channel_;
+    ChannelOf channel_;
     std::bitset<kCoefficientCount> seen_;
 };
 
@@ -95,6 +97,11 @@ std::int32_t get_le32(const std::uint8_t* bytes) {
 
 std::int16_t get_le16(const std::uint8_t* bytes) {
     return static_cast<std::int16_t>(bytes[0] | bytes[1] << 8);
+}
+
+template <typename Enum>
+constexpr std::uint8_t byte(Enum value) {
+    return static_cast<std::uint8_t>(value);
 }
 
 // Everything before the averages.
@@ -116,20 +123,31 @@ std::optional<Error> check_header(std::span<const std::uint8_t> bytes) {
     }
     struct Field {
         std::size_t offset;
-        std::uint8_t expected;
+        std::uint8_t lowest;
+        std::uint8_t highest;
         const char* name;
     };
-    constexpr std::array<Field, 5> kFields = {{{2, kVersion, "version"},
-                                               {3, kAlgorithm, "algorithm"},
-                                               {4, kColorSpace, "color space"},
-                                               {5, kDecomposition, "decomposition"},
-                                               {6, kDecodeRule, "decode rule"}}};
+    constexpr std::array<Field, 5> kFields = {
+        {{2, kVersion, kVersion, "version"},
+         {3, kAlgorithm, kAlgorithm, "algorithm"},
+         {kColorSpaceOffset,
+          byte(ColorSpace::kYiq),
+          byte(ColorSpace::kLuv),
+          "color space"},
+         {kDecompositionOffset,
+          byte(Decomposition::kStandard),
+          byte(Decomposition::kNonstandard),
+          "decomposition"},
+         {6, kDecodeRule, kDecodeRule, "decode rule"}}};
     for (const Field& field : kFields) {
-        if (bytes[field.offset] != field.expected) {
-            return invalid(std::string("signature ") + field.name + " " +
-                           std::to_string(bytes[field.offset]) + ", expected " +
-                           std::to_string(field.expected));
+        const std::uint8_t found = bytes[field.offset];
+        if (found >= field.lowest && found <= field.highest) continue;
+        std::string expected = std::to_string(field.lowest);
+        if (field.highest > field.lowest) {
+            expected += " to " + std::to_string(field.highest);
         }
+        return invalid(std::string("signature ") + field.name + " " +
+                       std::to_string(found) + ", expected " + expected);
     }
     if (bytes[7] > kLowInformationFlag) {
         return invalid("signature flags " + std::to_string(bytes[7]) + " are unknown");
@@ -149,8 +167,8 @@ std::vector<std::uint8_t> encode_signature(const Signature& signature) {
         kMagic1,
         kVersion,
         kAlgorithm,
-        kColorSpace,
-        kDecomposition,
+        byte(signature.kind.color_space),
+        byte(signature.kind.decomposition),
         kDecodeRule,
         signature.low_information ? kLowInformationFlag : std::uint8_t{0}};
     bytes.reserve(kMaxSignatureBytes);
@@ -171,10 +189,16 @@ std::vector<std::uint8_t> encode_signature(const Signature& signature) {
 
 Result<Signature> decode_signature(std::span<const std::uint8_t> bytes) {
     if (auto error = check_header(bytes)) return *std::move(error);
+    Signature signature;
+    signature.kind = {static_cast<ColorSpace>(bytes[kColorSpaceOffset]),
+                      static_cast<Decomposition>(bytes[kDecompositionOffset])};
+    signature.low_information = bytes[7] == kLowInformationFlag;
+
     std::size_t expected = kSignatureHeaderBytes;
     for (int c = 0; c < kChannels; ++c) {
         const std::size_t count = bytes[kCountOffset + c];
-        if (auto error = check_count(c, count)) return *std::move(error);
+        if (auto error = check_count({signature.kind.color_space, c}, count))
+            return *std::move(error);
         expected += 2 * count;
     }
     if (bytes.size() != expected) {
@@ -182,15 +206,14 @@ Result<Signature> decode_signature(std::span<const std::uint8_t> bytes) {
                        " bytes, its counts ask for " + std::to_string(expected));
     }
 
-    Signature signature;
-    signature.low_information = bytes[7] == kLowInformationFlag;
     const std::uint8_t* next = bytes.data() + kSignatureHeaderBytes;
     for (int c = 0; c < kChannels; ++c) {
+        const ChannelOf place{signature.kind.color_space, c};
         ChannelSignature& channel = signature.channels[c];
         channel.average = get_le32(bytes.data() + kAverageOffset + 4 * std::size_t(c));
         const double average = channel.average / double{kAverageOne};
-        if (auto error = check_average(c, average)) return *std::move(error);
-        IndexReader reader(c);
+        if (auto error = check_average(place, average)) return *std::move(error);
+        IndexReader reader(place);
         for (int i = 0; i < bytes[kCountOffset + c]; ++i, next += 2) {
             if (auto error = reader.add(get_le16(next), channel))
                 return *std::move(error);
@@ -216,6 +239,7 @@ Result<Signature> signature_from_text(std::string_view text) {
 
 OpenSignature to_open(const Signature& signature) {
     OpenSignature open;
+    open.kind = signature.kind;
     for (int c = 0; c < kChannels; ++c) {
         const ChannelSignature& channel = signature.channels[c];
         open.average[c] = channel.average / double{kAverageOne};
@@ -227,15 +251,17 @@ OpenSignature to_open(const Signature& signature) {
 
 Result<Signature> from_open(const OpenSignature& open) {
     Signature signature;
+    signature.kind = open.kind;
     bool any = false;
     for (int c = 0; c < kChannels; ++c) {
+        const ChannelOf place{open.kind.color_space, c};
         ChannelSignature& channel = signature.channels[c];
-        if (auto error = check_average(c, open.average[c])) return *std::move(error);
+        if (auto error = check_average(place, open.average[c])) return *std::move(error);
         channel.average =
             static_cast<std::int32_t>(std::lround(open.average[c] * kAverageOne));
         const std::vector<int>& indices = open.coefficients[c];
-        if (auto error = check_count(c, indices.size())) return *std::move(error);
-        IndexReader reader(c);
+        if (auto error = check_count(place, indices.size())) return *std::move(error);
+        IndexReader reader(place);
         for (const int index : indices) {
             if (auto error = reader.add(index, channel)) return *std::move(error);
         }

@@ -35,11 +35,12 @@ inline constexpr std::size_t kMaxSignatureBytes =
 [[nodiscard]] std::string signature_to_text(const Signature& signature);
 [[nodiscard]] Result<Signature> signature_from_text(std::string_view text);
 
-// The open form of the REST interface: averages as real numbers in the channel's unit,
-// signed indices in falling order of magnitude. Any average and list that a picture could
-// not have (outside the channel's range, index 0 or beyond 16383, an index twice, more than
-// kMaxCoefficients) is refused by name.
+// The open form of the REST interface: the kind (YIQ, standard, unless it is set), averages
+// as real numbers in the channel's unit, signed indices in falling order of magnitude. Any
+// average and list that a picture could not have (outside the channel's range, index 0 or
+// beyond 16383, an index twice, more than kMaxCoefficients) is refused by name.
 struct OpenSignature {
+    SignatureKind kind;
     std::array<double, kChannels> average{};
     std::array<std::vector<int>, kChannels> coefficients;
 };

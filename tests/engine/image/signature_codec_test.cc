@@ -7,6 +7,7 @@
 #include <random>
 
 #include "engine/image/color_space.h"
+#include "tests/engine/image/all_kinds.h"
 #include "tests/engine/image/pictures.h"
 #include "tests/engine/image/random_signatures.h"
 
@@ -47,14 +48,55 @@ TEST(SignatureCodec, BytesAreThoseOfTheDocument) {
     EXPECT_EQ(encode_signature(small_example()), expected);
 }
 
+// scene(90, 60, 61) as version 1 wrote it when YIQ, standard, was the only kind.
+constexpr std::string_view kFirstWritten =
+    "SFMBAQEBAQDxBmwA7FAJAOXw__9kZGQAgP8A____-f-DAID-gPz9_3__fv-HAAD6__mDAYD9ggPy"
+    "_44BjgAA_YUBdP4A_n_8jwL9_nv__P-CAfH_dPz7-YcCgwIPAXr-gOd_5_j_dv_-_IoDhQMHAXr8"
+    "BQCWAQD0iwGDBo4G9vx4_v_zgQYIBv_8dP8OA4D6_f2IAAoAefnq-Xvnev_0_ID4gPvR_wD8AwPz"
+    "_oUG8P9f_nb5-_5x9HD-__0CPADEBAbl_vr8DAHf_4EC6f_--ZYGHf57_X75FgBX__r_AOKAAP3_"
+    "f_-AAYMA_v8AAYIB__zy_44AdP75_4cAhQGBA3T8jgF6_v_5AwH8_3r8jgb4_3_5__8OA4cBggB9"
+    "_IsD9v92_H78AAKAA3P_eP6HBgIDlgGKAQcDf_6IAIUD8_xp_xsBAwb0_oIGDQFl__335fwd_AAE"
+    "lwOAAvP5igCyAJYDAAjw_wAcjQH7-QMDARyBAl_-Hf4CHOX5iwFX_HD-f-ff_07-E_-A5__3AA6D"
+    "AYMb-_4yAwD6hQabAfr-gwwCDQEOoQD9-___gAD-_33_AAGCAIABgAJ__4AD-_9-_IEDAgN9_fb_"
+    "_f-CAXb8cf2KAH_5hQD6_4sD8f6CBvT_AQb9_goDAAZ__XT-f_4PAGX_yf8HAAINSf-PAJcDV_yK"
+    "Bs7_af_X__z_qQBz_wwBjQEBAZYDAAL__BcAev-HAYAF__IDAgUGhQGbAXr-Tv6CGuz_6fzn_4oB"
+    "BwspAwoNbPz5_ur_BwOFAwDz_sOvA4AYjwF5_XL-jwuBGA8DlABR_wECMgGWAH_lAwRtAPX8";
+
+TEST(SignatureCodec, ReadsWhatWasWrittenBeforeThereWereKinds) {
+    const auto decoded = signature_from_text(kFirstWritten);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(decoded->kind, SignatureKind{});
+    EXPECT_EQ(signature_to_text(*decoded), kFirstWritten);
+    EXPECT_EQ(*decoded, example());
+}
+
+TEST(SignatureCodec, KindIsInBytes4And5) {
+    for (const SignatureKind& kind : all_kinds()) {
+        Signature signature;
+        signature.kind = kind;
+        const auto bytes = encode_signature(signature);
+        EXPECT_EQ(bytes[4], static_cast<int>(kind.color_space));
+        EXPECT_EQ(bytes[5], static_cast<int>(kind.decomposition));
+        EXPECT_EQ(decode_signature(bytes)->kind, kind) << kind_name(kind);
+    }
+}
+
 TEST(SignatureCodec, RoundTripsBytesTextAndOpenForm) {
     std::mt19937 random(62);
     std::vector<Signature> signatures = {Signature{}, small_example(), example()};
-    signatures.push_back(make_signature(flat(5, 5, {255, 0, 0}).view()));
-    signatures.push_back(make_signature(flat(5, 5, {0, 255, 255}).view()));
-    signatures.push_back(make_signature(flat(5, 5, {0, 255, 0}).view()));
-    signatures.push_back(make_signature(flat(5, 5, {255, 0, 255}).view()));
-    signatures.push_back(make_signature(flat(5, 5, {255, 255, 255}).view()));
+    // The corners of the cube: where the channels' ranges end.
+    for (int corner = 0; corner < 8; ++corner) {
+        std::vector<std::uint8_t> color;
+        for (int c = 0; c < 3; ++c) {
+            color.push_back(static_cast<std::uint8_t>((corner >> c) % 2 * 255));
+        }
+        const auto kinds = all_kinds();
+        const auto made = make_signatures(flat(5, 5, color).view(), kinds);
+        signatures.insert(signatures.end(), made.begin(), made.end());
+    }
+    for (const SignatureKind& kind : all_kinds()) {
+        signatures.push_back(make_signature(scene(90, 60, 63).view(), kind));
+    }
     for (int i = 0; i < 50; ++i) signatures.push_back(random_signature(random, {}));
     for (const Signature& signature : signatures) {
         const auto bytes = encode_signature(signature);
@@ -67,6 +109,7 @@ TEST(SignatureCodec, RoundTripsBytesTextAndOpenForm) {
         EXPECT_EQ(*from_text, signature);
         const auto opened = from_open(to_open(signature));
         ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(opened->kind, signature.kind);
         EXPECT_EQ(opened->channels, signature.channels);
     }
 }
@@ -107,11 +150,13 @@ TEST(SignatureCodec, TakesAChangedByteAtItsWordOrRefusesIt) {
             ASSERT_EQ(encode_signature(*decoded), bytes)
                 << "byte " << at << " = " << value;
         }
-        // The header has no choice, and a count must agree with the length.
+        // The header has no choice but of the kind (in RGB no average is negative), and a
+        // count must agree with the length.
         const bool fixed = at < 7 || (at >= 20 && at < 24);
+        const int choices = at == 4 ? 4 : at == 5 ? 2 : 1;
         EXPECT_GE(accepted, 1) << "byte " << at;
         if (fixed) {
-            EXPECT_EQ(accepted, 1) << "byte " << at;
+            EXPECT_EQ(accepted, choices) << "byte " << at;
         }
     }
 }
@@ -121,8 +166,8 @@ TEST(SignatureCodec, NamesTheHeaderFieldThatIsWrong) {
         {0, "not a signature: it starts with bytes 200, 83"},
         {1, "not a signature: it starts with bytes 72, 200"},
         {3, "algorithm 200, expected 1"},
-        {4, "color space 200, expected 1"},
-        {5, "decomposition 200, expected 1"},
+        {4, "color space 200, expected 1 to 5"},
+        {5, "decomposition 200, expected 1 to 2"},
         {6, "decode rule 200, expected 1"},
         {7, "flags 200"},
         {20, "200 coefficients in channel Y, at most 100"},
@@ -134,6 +179,16 @@ TEST(SignatureCodec, NamesTheHeaderFieldThatIsWrong) {
         std::vector<std::uint8_t> bytes = encode_signature(small_example());
         bytes[at] = 200;
         expect_refused(decode_signature(bytes), reason);
+    }
+}
+
+TEST(SignatureCodec, RefusesKindsBesideThoseThereAre) {
+    const std::pair<int, int> cases[] = {{4, 0}, {4, 6}, {5, 0}, {5, 3}};
+    for (const auto& [at, value] : cases) {
+        std::vector<std::uint8_t> bytes = encode_signature(small_example());
+        bytes[at] = static_cast<std::uint8_t>(value);
+        expect_refused(decode_signature(bytes),
+                       std::to_string(value) + ", expected 1 to");
     }
 }
 
@@ -186,26 +241,28 @@ TEST(SignatureCodec, RefusesMoreOpenCoefficientsThanAreKept) {
 }
 
 TEST(SignatureCodec, RefusesAveragesOutsideTheChannelsRange) {
-    const std::array<double, kChannels> lowest = {0.0, -kMaxI, -kMaxQ};
-    const std::array<double, kChannels> highest = {1.0, kMaxI, kMaxQ};
-    const std::string names = "YIQ";
-    for (int c = 0; c < kChannels; ++c) {
-        const std::string name = std::string("in channel ") + names[c];
-        for (const auto& [bound, outwards] :
-             {std::pair(lowest[c], -1.0), std::pair(highest[c], 1.0)}) {
-            OpenSignature open;
-            open.average[c] = bound;
-            EXPECT_TRUE(from_open(open)) << bound << " " << name;
-            Signature signature;
-            signature.channels[c].average = static_cast<std::int32_t>(
-                std::lround((bound + outwards * 1e-5) * kAverageOne));
-            expect_refused(decode_signature(encode_signature(signature)), name);
-            open.average[c] = bound + outwards * 1e-5;
-            expect_refused(from_open(open), name);
-            open.average[c] = outwards * std::numeric_limits<double>::infinity();
-            expect_refused(from_open(open), name);
-            open.average[c] = std::numeric_limits<double>::quiet_NaN();
-            expect_refused(from_open(open), name);
+    for (const ColorSpace space : kAllColorSpaces) {
+        for (int c = 0; c < kChannels; ++c) {
+            const std::string name = "in channel " + std::string(channel_name(space, c));
+            const ChannelRange range = channel_range(space, c);
+            for (const auto& [bound, outwards] :
+                 {std::pair(range.lowest, -1.0), std::pair(range.highest, 1.0)}) {
+                OpenSignature open;
+                open.kind.color_space = space;
+                open.average[c] = bound;
+                EXPECT_TRUE(from_open(open)) << bound << " " << name;
+                Signature signature;
+                signature.kind = open.kind;
+                signature.channels[c].average = static_cast<std::int32_t>(
+                    std::lround((bound + outwards * 1e-5) * kAverageOne));
+                expect_refused(decode_signature(encode_signature(signature)), name);
+                open.average[c] = bound + outwards * 1e-5;
+                expect_refused(from_open(open), name);
+                open.average[c] = outwards * std::numeric_limits<double>::infinity();
+                expect_refused(from_open(open), name);
+                open.average[c] = std::numeric_limits<double>::quiet_NaN();
+                expect_refused(from_open(open), name);
+            }
         }
     }
 }
