@@ -8,6 +8,7 @@
 #include "schema/file_header.h"
 #include "schema/migrate.h"
 #include "schema/sqlite_error.h"
+#include "schema/uri_words.h"
 
 namespace haarmony::schema {
 namespace {
@@ -138,6 +139,7 @@ Result<Database> Database::open(const std::string& path, Mode mode) {
 
     // A database that is refused below stays as it is, its log not moved into it.
     Result<void> ready = set_checkpoint_on_close(opened, false);
+    if (ready) ready = register_uri_words(opened);
     if (ready) {
         ready = mode == Mode::kReadOnly ? prepare_for_reading(opened)
                                         : prepare_for_writing(opened);

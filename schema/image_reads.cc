@@ -2,6 +2,7 @@
 #include <cassert>
 #include <utility>
 
+#include "schema/image_selection.h"
 #include "schema/image_statements.h"
 #include "schema/sqlite_error.h"
 
@@ -79,26 +80,6 @@ Result<std::vector<Image>> collect(Statement& statement) {
     }
 }
 
-// The ids of one page, in order. The first tag leads: its index has the ids in order, so
-// that a rare tag is not sought among all pictures.
-std::string page_sql(std::size_t tags) {
-    if (tags == 0) {
-        return "SELECT id FROM images WHERE state = 'indexed' AND id > ?1"
-               " ORDER BY id LIMIT ?2";
-    }
-    std::string sql =
-        "SELECT leading.image_id AS id FROM image_tags AS leading"
-        " JOIN images ON images.id = leading.image_id"
-        " WHERE leading.tag = ?3 AND leading.image_id > ?1 AND state = 'indexed'";
-    for (std::size_t tag = 1; tag < tags; ++tag) {
-        sql +=
-            " AND EXISTS (SELECT 1 FROM image_tags WHERE image_id = leading.image_id"
-            " AND tag = ?" +
-            std::to_string(tag + 3) + ")";
-    }
-    return sql + " ORDER BY leading.image_id LIMIT ?2";
-}
-
 std::string json_array(std::span<const ImageId> ids) {
     std::string text = "[";
     for (const ImageId id : ids) {
@@ -172,29 +153,41 @@ Result<std::vector<Image>> ImageStore::get_many(std::span<const ImageId> ids) {
 
 Result<std::vector<Image>> ImageStore::list(const ListOptions& options) {
     assert(options.limit >= 1);
-    if (options.tags.size() > kMaxListTags) {
-        return Error{ErrorCode::kInvalidArgument,
-                     std::to_string(options.tags.size()) + " tags, at most " +
-                         std::to_string(kMaxListTags) + " can be asked for",
-                     "tags"};
-    }
+    const auto selection =
+        Selection::make(statements_->cache.database(), options.text, options.tags);
+    if (!selection) return selection.error();
     const auto failed = [](Error error) {
         return while_doing("cannot list images", std::move(error));
     };
     const std::string sql =
-        "SELECT images.id, " + columns() + " FROM (" + page_sql(options.tags.size()) +
+        "SELECT images.id, " + columns() + " FROM (" + selection->sql() +
         ") AS page CROSS JOIN images ON images.id = page.id" + std::string(kWithTags) +
         " ORDER BY images.id, image_tags.tag";
     auto statement = statements_->cache.borrow(sql);
     if (!statement) return failed(std::move(statement).error());
-    (*statement)->bind(1, options.after ? to_int(*options.after) : 0);
-    (*statement)->bind(2, options.limit);
-    for (std::size_t tag = 0; tag < options.tags.size(); ++tag) {
-        (*statement)->bind(static_cast<int>(tag) + 3, options.tags[tag]);
-    }
+    selection->bind(**statement, options.after, options.limit);
     Result<std::vector<Image>> images = collect(**statement);
     if (!images) return failed(std::move(images).error());
     return images;
+}
+
+Result<std::vector<ImageId>> ImageStore::matching(const ImageFilter& filter) {
+    const auto selection =
+        Selection::make(statements_->cache.database(), filter.text, filter.tags);
+    if (!selection) return selection.error();
+    const auto failed = [](Error error) {
+        return while_doing("cannot filter images", std::move(error));
+    };
+    auto statement = statements_->cache.borrow(selection->sql());
+    if (!statement) return failed(std::move(statement).error());
+    selection->bind(**statement, std::nullopt, Selection::kNoLimit);
+    std::vector<ImageId> ids;
+    for (;;) {
+        const Result<bool> row = (*statement)->step();
+        if (!row) return failed(row.error());
+        if (!*row) return ids;
+        ids.push_back(ImageId{(*statement)->integer(0)});
+    }
 }
 
 Result<std::vector<std::uint8_t>> ImageStore::signature(ImageId id) {

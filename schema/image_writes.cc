@@ -46,28 +46,6 @@ constexpr std::string_view kRemoveFile =
     " updated_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), revision = revision + 1"
     " WHERE id = ?1 AND origin = 'file' AND state <> 'deleted' RETURNING id";
 
-// Steps a statement that returns the id of the row it wrote, or nothing.
-Result<std::optional<ImageId>> written_id(Statement& statement) {
-    Result<bool> row = statement.step();
-    if (!row) return std::move(row).error();
-    if (!*row) return std::optional<ImageId>();
-    const ImageId id{statement.integer(0)};
-    // To its end: the work of a statement with RETURNING is complete only then.
-    Result<bool> more = statement.step();
-    if (!more) return std::move(more).error();
-    return std::optional<ImageId>(id);
-}
-
-// Runs a statement about one row; whether there was such a row.
-Result<bool> wrote(StatementCache& cache, std::string_view sql, ImageId id) {
-    auto statement = cache.borrow(sql);
-    if (!statement) return std::move(statement).error();
-    (*statement)->bind(1, to_int(id));
-    const auto written = written_id(**statement);
-    if (!written) return written.error();
-    return written->has_value();
-}
-
 Result<void> store_thumbnail(StatementCache& cache,
                              ImageId id,
                              const Thumbnail& thumbnail) {
@@ -88,23 +66,6 @@ Result<void> store_thumbnail(StatementCache& cache,
     return (*statement)->run();
 }
 
-Result<void> store_tags(StatementCache& cache,
-                        ImageId id,
-                        const std::vector<std::string>& tags) {
-    auto statement = cache.borrow(
-        "INSERT INTO image_tags (image_id, tag) VALUES (?1, ?2)"
-        " ON CONFLICT (image_id, tag) DO NOTHING");
-    if (!statement) return std::move(statement).error();
-    for (const std::string& tag : tags) {
-        (*statement)->reset();
-        (*statement)->bind(1, to_int(id));
-        (*statement)->bind(2, tag);
-        Result<void> stored = (*statement)->run();
-        if (!stored) return stored;
-    }
-    return {};
-}
-
 Result<ImageId> insert(StatementCache& cache, const NewImage& image) {
     auto statement = cache.borrow(kInsert);
     if (!statement) return std::move(statement).error();
@@ -119,9 +80,9 @@ Result<ImageId> insert(StatementCache& cache, const NewImage& image) {
     (*statement)->bind(9, image.low_information ? 1 : 0);
     (*statement)->bind(10, image.signature);
     (*statement)->bind(11, image.metadata);
-    const auto id = written_id(**statement);
+    const auto id = (*statement)->run_returning();
     if (!id) return id.error();
-    return id->value();
+    return ImageId{id->value()};
 }
 
 Result<bool> replace_pixels(StatementCache& cache, ImageId id, const NewImage& image) {
@@ -136,7 +97,7 @@ Result<bool> replace_pixels(StatementCache& cache, ImageId id, const NewImage& i
     (*statement)->bind(7, image.media_type);
     (*statement)->bind(8, image.low_information ? 1 : 0);
     (*statement)->bind(9, image.signature);
-    const auto written = written_id(**statement);
+    const auto written = (*statement)->run_returning();
     if (!written) return written.error();
     return written->has_value();
 }
@@ -152,14 +113,21 @@ Result<ImageId> store_failure(StatementCache& cache,
     (*statement)->bind(3, stamp.mtime_ns);
     (*statement)->bind(4, stamp.content_hash);
     (*statement)->bind(5, reason);
-    const auto id = written_id(**statement);
+    const auto id = (*statement)->run_returning();
     if (!id) return id.error();
-    return id->value();
+    return ImageId{id->value()};
 }
 
-std::string image_name(ImageId id) { return "image " + std::to_string(to_int(id)); }
-
 }  // namespace
+
+Result<bool> wrote(StatementCache& cache, std::string_view sql, ImageId id) {
+    auto statement = cache.borrow(sql);
+    if (!statement) return std::move(statement).error();
+    (*statement)->bind(1, to_int(id));
+    const auto written = (*statement)->run_returning();
+    if (!written) return written.error();
+    return written->has_value();
+}
 
 Result<ImageId> ImageStore::add(const NewImage& image) {
     StatementCache& cache = statements_->cache;
@@ -175,6 +143,9 @@ Result<ImageId> ImageStore::add(const NewImage& image) {
         stored = store_thumbnail(cache, *id, image.thumbnail);
     }
     if (stored) stored = store_tags(cache, *id, image.tags);
+    for (const SignatureVariant& variant : image.variants) {
+        if (stored) stored = store_variant(cache, *id, variant);
+    }
     if (stored) stored = scope->commit();
     if (!stored) return failed(std::move(stored).error());
     return id;
@@ -191,6 +162,7 @@ Result<void> ImageStore::update(ImageId id, const NewImage& image) {
     if (!found) return failed(found.error());
     if (!*found) return no_such_image(id);
     Result<void> stored = store_thumbnail(cache, id, image.thumbnail);
+    if (stored) stored = replace_variants(cache, id, image.variants);
     if (stored) stored = scope->commit();
     if (!stored) return failed(std::move(stored).error());
     return {};
@@ -209,7 +181,7 @@ Result<void> ImageStore::touch(ImageId id, const FileStamp& stamp) {
         (*statement)->bind(2, stamp.size);
         (*statement)->bind(3, stamp.mtime_ns);
         (*statement)->bind(4, stamp.content_hash);
-        const auto written = written_id(**statement);
+        const auto written = (*statement)->run_returning();
         if (!written) return failed(written.error());
         if (!written->has_value()) return no_such_image(id);
     }

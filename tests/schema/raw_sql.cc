@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "schema/uri_words.h"
+
 namespace haarmony::schema {
 namespace {
 
@@ -47,6 +49,7 @@ RawConnection::RawConnection(const std::string& path) {
     const int result = sqlite3_open(path.c_str(), &opened);
     handle_.reset(opened);
     if (result != SQLITE_OK) throw std::runtime_error("cannot open " + path);
+    if (!register_uri_words(opened)) throw std::runtime_error("haarmony_words");
 }
 
 void RawConnection::keep_log_on_close() {

@@ -14,7 +14,8 @@ void run_sql(sqlite3* database, const std::string& sql);
 [[nodiscard]] std::int64_t sql_integer(sqlite3* database, const std::string& sql);
 [[nodiscard]] std::string sql_text(sqlite3* database, const std::string& sql);
 
-// A connection with SQLite's own defaults, and no busy timeout.
+// A connection with SQLite's own defaults, no busy timeout, and the one SQL function that
+// the triggers need.
 class RawConnection {
   public:
     explicit RawConnection(const std::string& path);
