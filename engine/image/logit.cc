@@ -69,18 +69,24 @@ class Problem {
     Problem(const LogitRows& rows, const LogitOptions& options)
         : rows_(rows),
           ridge_(options.ridge),
-          center_(options.center),
+          direction_(options.direction),
           lower_(options.lower) {
         const auto features = std::size_t(rows.features);
-        if (center_.empty()) center_.assign(features, 0.0);
+        if (direction_.empty()) direction_.assign(features, 0.0);
         if (lower_.empty()) {
             lower_.assign(features, -std::numeric_limits<double>::infinity());
         }
-        assert(center_.size() == features && lower_.size() == features);
+        assert(direction_.size() == features && lower_.size() == features);
         assert(rows.values.size() == rows.size() * features);
+        const double length = std::sqrt(std::inner_product(
+            direction_.begin(), direction_.end(), direction_.begin(), 0.0));
+        assert(length > 0 || options.direction.empty());
+        if (length > 0) {
+            for (double& part : direction_) part /= length;
+        }
     }
 
-    [[nodiscard]] std::size_t unknowns() const { return center_.size() + 1; }
+    [[nodiscard]] std::size_t unknowns() const { return lower_.size() + 1; }
 
     [[nodiscard]] std::vector<double> start() const {
         const auto matches =
@@ -88,7 +94,7 @@ class Problem {
         const double mismatches = static_cast<double>(rows_.size()) - matches;
         assert(matches > 0 && mismatches > 0);
         std::vector<double> x{std::log(matches / mismatches)};
-        x.insert(x.end(), center_.begin(), center_.end());
+        x.resize(unknowns(), 0.0);
         return projected(std::move(x));
     }
 
@@ -109,11 +115,10 @@ class Problem {
     }
 
     [[nodiscard]] double objective(const std::vector<double>& x) const {
-        double penalty = 0;
-        for (std::size_t k = 0; k < center_.size(); ++k) {
-            penalty += (x[k + 1] - center_[k]) * (x[k + 1] - center_[k]);
-        }
-        return log_likelihood(x) - ridge_ / 2 * penalty;
+        double squares = 0;
+        for (std::size_t k = 1; k < x.size(); ++k) squares += x[k] * x[k];
+        return log_likelihood(x) -
+               ridge_ / 2 * (squares - kAlongFree * along(x) * along(x));
     }
 
     // The gradient of the objective, and its negative second derivative.
@@ -139,9 +144,14 @@ class Problem {
                 }
             }
         }
+        const double free = kAlongFree * along(x);
         for (std::size_t k = 1; k < n; ++k) {
-            gradient[k] -= ridge_ * (x[k] - center_[k - 1]);
+            gradient[k] -= ridge_ * (x[k] - free * direction_[k - 1]);
             curvature.at(k, k) += ridge_;
+            for (std::size_t j = 1; j <= k; ++j) {
+                curvature.at(k, j) -=
+                    ridge_ * kAlongFree * direction_[k - 1] * direction_[j - 1];
+            }
         }
         // Far from the optimum every p may be 0 or 1, which would leave nothing here. It
         // only shortens the step: the optimum is where the gradient is zero.
@@ -160,6 +170,12 @@ class Problem {
 
   private:
     static constexpr double kLeastCurvature = 1e-9;
+    static constexpr double kAlongFree = 1 - kRidgeAlong;
+
+    [[nodiscard]] double along(const std::vector<double>& x) const {
+        return std::inner_product(
+            direction_.begin(), direction_.end(), x.begin() + 1, 0.0);
+    }
 
     [[nodiscard]] double linear(const std::vector<double>& x, std::size_t i) const {
         const std::span<const double> row = rows_.row(i);
@@ -168,7 +184,7 @@ class Problem {
 
     const LogitRows& rows_;
     double ridge_;
-    std::vector<double> center_;
+    std::vector<double> direction_;  // of length 1, or 0 where there is none
     std::vector<double> lower_;
 };
 

@@ -2,8 +2,9 @@
 // (from pairs to a profile: [logit.h] -> training.h -> profile.h).
 //
 // P(match) = F(intercept + sum of weights[k] * feature[k]), F(x) = 1 / (1 + e^-x), fitted by
-// iteratively reweighted least squares: Newton steps on the log-likelihood less the ridge
-// ridge / 2 * sum of (weights[k] - center[k])^2. The intercept is not held back by it.
+// iteratively reweighted least squares: Newton steps on the log-likelihood less the ridge,
+// ridge / 2 * (|across|^2 + kRidgeAlong * |along|^2), where `along` is the part of the
+// weights along `direction` and `across` the rest. The intercept is not held back.
 //
 // Units   those of the features; scale them before, the ridge treats all alike.
 // Errors  none; a wrong shape is a caller's bug and asserts.
@@ -29,10 +30,13 @@ struct LogitRows {
     }
 };
 
+// Just enough to keep the weights finite where the direction alone separates the outcomes.
+inline constexpr double kRidgeAlong = 1e-3;
+
 struct LogitOptions {
-    double ridge = 1;                 // above 0
-    std::vector<double> center = {};  // what the ridge draws the weights to; empty: to 0
-    std::vector<double> lower = {};   // no weight falls below; empty: no bounds
+    double ridge = 1;                    // above 0
+    std::vector<double> direction = {};  // of any length but 0; empty: there is none
+    std::vector<double> lower = {};      // no weight falls below; empty: no bounds
     int max_iterations = 100;
 };
 

@@ -62,11 +62,22 @@ double penalized(const LogitRows& rows,
         const double p = std::exp(eta) / (1 + std::exp(eta));
         sum += std::log(rows.outcomes[i] == 1 ? p : 1 - p);
     }
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-        const double center = options.center.empty() ? 0 : options.center[k];
-        sum -= options.ridge / 2 * std::pow(weights[k] - center, 2);
+    // The part along the direction, then what is left of each weight.
+    double dot = 0;
+    double square = 0;
+    for (std::size_t k = 0; k < options.direction.size(); ++k) {
+        dot += weights[k] * options.direction[k];
+        square += options.direction[k] * options.direction[k];
     }
-    return sum;
+    double along = 0;
+    double across = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        const double part =
+            options.direction.empty() ? 0 : dot / square * options.direction[k];
+        along += part * part;
+        across += (weights[k] - part) * (weights[k] - part);
+    }
+    return sum - options.ridge / 2 * (across + along / 1000);
 }
 
 // The gradient of penalized() by differences; its error is about 1e-8 of the curvature.
@@ -105,7 +116,7 @@ TEST(Logit, FindsTheModelThatTheOutcomesWereDrawnFrom) {
 TEST(Logit, GradientIsZeroAtTheOptimum) {
     for (const std::uint64_t seed : {2, 3, 4}) {
         const LogitRows rows = drawn(seed, 300, 0.5, {2.0, -1.0, 0.3, 0.1});
-        const LogitOptions options{.ridge = 2, .center = {1.0, 0.0, -1.0, 0.5}};
+        const LogitOptions options{.ridge = 2, .direction = {1.0, 0.0, -1.0, 0.5}};
         const LogitFit fit = fit_logit(rows, options);
         ASSERT_TRUE(fit.converged);
         for (const double slope : gradient_at(rows, options, fit)) {
@@ -174,11 +185,11 @@ TEST(Logit, ZeroAndRepeatedColumnsAreNoTrouble) {
     }
     // Two equal weights w pay half the ridge that one weight 2 w pays.
     const LogitFit one = fit_logit(plain, {.ridge = 1});
-    const LogitFit three = fit_logit(wide, {.ridge = 2, .center = {0, 0, 0.75}});
+    const LogitFit three = fit_logit(wide, {.ridge = 2});
     ASSERT_TRUE(three.converged);
     EXPECT_NEAR(three.weights[0], three.weights[1], 1e-9);
     EXPECT_NEAR(three.weights[0] + three.weights[1], one.weights[0], 1e-7);
-    EXPECT_NEAR(three.weights[2], 0.75, 1e-12);  // nothing pulls it from the centre
+    EXPECT_EQ(three.weights[2], 0);  // nothing but the ridge says anything about it
     EXPECT_NEAR(three.log_likelihood, one.log_likelihood, 1e-7);
 }
 
@@ -204,12 +215,29 @@ TEST(Logit, ManyMoreMismatchesThanMatches) {
         EXPECT_NEAR(slope, 0, 1e-5);
 }
 
-TEST(Logit, AStrongRidgeKeepsTheCenter) {
-    const LogitRows rows = drawn(7, 200, 0.0, {3.0, -3.0});
-    const LogitFit fit = fit_logit(rows, {.ridge = 1e9, .center = {-1.0, 5.0}});
+TEST(Logit, AStrongRidgeKeepsTheDirectionAndLeavesItsLength) {
+    const LogitRows rows = drawn(7, 2000, 0.0, {2.0, 1.0});
+    const LogitFit fit = fit_logit(rows, {.ridge = 1e7, .direction = {30.0, 15.0}});
     ASSERT_TRUE(fit.converged);
-    EXPECT_NEAR(fit.weights[0], -1.0, 1e-5);
-    EXPECT_NEAR(fit.weights[1], 5.0, 1e-5);
+    EXPECT_NEAR(fit.weights[0], 2 * fit.weights[1], 1e-3);
+    EXPECT_GT(fit.weights[0], 0);
+    // A ridge of 1e7 / 1000 still weighs on the length; one of 10 does not.
+    const LogitFit free = fit_logit(rows, {.ridge = 10, .direction = {30.0, 15.0}});
+    EXPECT_NEAR(free.weights[0], 2.0, 0.3);
+    EXPECT_NEAR(free.weights[1], 1.0, 0.15);
+}
+
+TEST(Logit, AColumnNeverUsedFollowsTheDirection) {
+    LogitRows rows{2, {}, {}};
+    const LogitRows plain = drawn(14, 400, 0.0, {1.2});
+    for (const double value : plain.values) {
+        rows.values.insert(rows.values.end(), {value, 0.0});
+    }
+    rows.outcomes = plain.outcomes;
+    const LogitFit fit = fit_logit(rows, {.ridge = 0.1, .direction = {2.0, 1.0}});
+    ASSERT_TRUE(fit.converged);
+    EXPECT_NEAR(fit.weights[1], fit.weights[0] / 2, 0.01);
+    EXPECT_NEAR(fit.weights[0], 1.2, 0.3);
 }
 
 TEST(Logit, StopsAfterTheIterationsItMayTake) {
@@ -223,7 +251,7 @@ TEST(Logit, BoundsHoldAndTheRestIsFittedAnew) {
     for (const std::uint64_t seed : {9, 10, 11, 12}) {
         const LogitRows rows = drawn(seed, 500, 0.3, {1.0, -0.8, 0.05, -0.05});
         const LogitOptions options{
-            .ridge = 0.1, .center = {1, 1, 1, 1}, .lower = {0, 0, 0, 0}};
+            .ridge = 0.1, .direction = {1, 1, 1, 1}, .lower = {0, 0, 0, 0}};
         const LogitFit fit = fit_logit(rows, options);
         ASSERT_TRUE(fit.converged) << seed;
 
