@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 namespace haarmony::image {
 namespace {
@@ -39,6 +40,10 @@ int bin(BinRule rule, int row, int column) {
             break;
     }
     return std::min(floor_log2, kBins - 1);
+}
+
+double probability(const Calibration& calibration, double distance) {
+    return 1.0 / (1.0 + std::exp(calibration.scale * distance - calibration.intercept));
 }
 
 std::string_view bin_rule_name(BinRule rule) {

@@ -36,6 +36,8 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
+[[nodiscard]] double probability(const Calibration& calibration, double distance);
+
 struct Profile {
     std::string name;
     SignatureKind kind;

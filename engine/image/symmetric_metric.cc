@@ -80,8 +80,7 @@ void SignatureBlock::score(const Query& query, std::span<Score> scores) const {
     assert(query.m == m_ && scores.size() == weight_sums_.size());
     std::vector<std::int32_t> matched(scores.size(), 0);
     arrays_.add_matches(query, matched);
-    score_slots(
-        query, {{averages_[0], averages_[1], averages_[2]}, {}}, matched, scores);
+    score_slots(query, {{averages_[0], averages_[1], averages_[2]}, {}}, matched, scores);
 }
 
 void SignatureBlock::symmetric_distances(const Query& query,

@@ -1,5 +1,6 @@
 #include "server/api/base64.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -53,6 +54,21 @@ Result<std::string> decode_base64(std::string_view text) {
     }
     if (bits != 0) return wrong_at(digits.size() - 1);
     return bytes;
+}
+
+std::string encode_base64(std::string_view bytes) {
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits =
+                bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text.push_back(k <= count ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=');
+    }
+    return text;
 }
 
 }  // namespace haarmony::server

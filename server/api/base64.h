@@ -13,5 +13,6 @@
 namespace haarmony::server {
 
 [[nodiscard]] Result<std::string> decode_base64(std::string_view text);
+[[nodiscard]] std::string encode_base64(std::string_view bytes);
 
 }  // namespace haarmony::server

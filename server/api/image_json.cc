@@ -57,12 +57,19 @@ json image_json(const schema::Image& image) {
     return members;
 }
 
-json match_json(const FoundImage& found, int rank) {
+json match_json(const FoundImage& found,
+                const PlannedWay& way,
+                const image::Profile& profile,
+                int rank) {
     json members = described(found.image);
     members["rank"] = rank;
-    members["distance"] = found.distance;
-    members["similarity"] = found.similarity;
-    members["orientation"] = "identity";
+    members["distance"] = found.match.distance;
+    members["similarity"] = found.match.similarity;
+    members["orientation"] = image::symmetry_name(way.symmetry);
+    if (found.match.combined_rank) members["combined_rank"] = *found.match.combined_rank;
+    if (profile.calibration)
+        members["probability"] =
+            image::probability(*profile.calibration, found.match.distance);
     return members;
 }
 

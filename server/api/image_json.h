@@ -13,8 +13,11 @@ namespace haarmony::server {
 // One row, as GET /images and GET /images/{id} give it.
 [[nodiscard]] nlohmann::json image_json(const schema::Image& image);
 
-// One match; `rank` from 1.
-[[nodiscard]] nlohmann::json match_json(const FoundImage& found, int rank);
+// One match; `way` is how it was found, `rank` counts from 1.
+[[nodiscard]] nlohmann::json match_json(const FoundImage& found,
+                                        const PlannedWay& way,
+                                        const image::Profile& profile,
+                                        int rank);
 
 // "/images/12", and with a part "/images/12/thumbnail".
 [[nodiscard]] std::string image_address(ImageId id);

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "server/api/attributes.h"
 #include "server/api/content_tag.h"
 #include "server/api/image_id.h"
 #include "server/api/image_json.h"
@@ -27,8 +26,9 @@ schema::ListOptions read_list_options(Inputs& inputs) {
     if (const auto cursor =
             inputs.integer("cursor", 1, std::numeric_limits<std::int64_t>::max()))
         options.after = ImageId{*cursor};
-    options.tags = read_tags(inputs).value_or(std::vector<std::string>{});
-    refuse_not_built(inputs, "text");
+    schema::ImageFilter filter = read_filter(inputs);
+    options.tags = std::move(filter.tags);
+    options.text = std::move(filter.text);
     return options;
 }
 

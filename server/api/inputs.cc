@@ -83,6 +83,13 @@ Outcome<Inputs> Inputs::of_request(const http::Request& request) {
     return inputs;
 }
 
+Outcome<Inputs> Inputs::of_object(json object) {
+    Inputs inputs;
+    if (MaybeProblem problem = inputs.add_object(std::move(object)))
+        return *std::move(problem);
+    return inputs;
+}
+
 MaybeProblem Inputs::add(const std::string& name, Input input) {
     if (inputs_.emplace(name, std::move(input)).second) return {};
     return http::Problem{400,
@@ -122,10 +129,14 @@ MaybeProblem Inputs::add_body(const http::Request& request) {
 MaybeProblem Inputs::add_json(const std::string& body) {
     Result<json> parsed = http::parse_json(body);
     if (!parsed) return http::problem_of(parsed.error());
-    if (!parsed->is_object())
+    return add_object(std::move(parsed).value());
+}
+
+MaybeProblem Inputs::add_object(json object) {
+    if (!object.is_object())
         return http::Problem{
             400, "invalid_argument", "the JSON body must be an object", "", {}};
-    for (auto& [name, value] : parsed->items())
+    for (auto& [name, value] : object.items())
         if (MaybeProblem problem = add(name, {std::move(value), false, false}))
             return problem;
     return {};

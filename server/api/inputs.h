@@ -34,6 +34,8 @@ class Inputs {
     [[nodiscard]] static Outcome<Inputs> of_request(const http::Request& request);
     // The query parameters alone.
     [[nodiscard]] static Outcome<Inputs> of_query(const http::Request& request);
+    // The members of a JSON object that is part of a body.
+    [[nodiscard]] static Outcome<Inputs> of_object(nlohmann::json object);
 
     // The body of an image/* request or the multipart part "file"; nothing if there is
     // neither, or no body at all.
@@ -82,6 +84,7 @@ class Inputs {
     [[nodiscard]] std::optional<http::Problem> add_query(const http::Request& request);
     [[nodiscard]] std::optional<http::Problem> add_body(const http::Request& request);
     [[nodiscard]] std::optional<http::Problem> add_json(const std::string& body);
+    [[nodiscard]] std::optional<http::Problem> add_object(nlohmann::json object);
     [[nodiscard]] std::optional<http::Problem> add_multipart(
         const http::Request& request);
     [[nodiscard]] const Input* find(std::string_view name) const;

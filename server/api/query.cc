@@ -3,9 +3,12 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/image/signature_codec.h"
+#include "server/api/explanation_json.h"
 #include "server/api/image_id.h"
 #include "server/api/image_json.h"
 #include "server/api/inputs.h"
@@ -20,58 +23,113 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-Outcome<image::Signature> signature_of(const Context& context,
-                                       const QuerySource& source,
-                                       Mask mask) {
+Outcome<QueryPicture> picture_of(const Context& context,
+                                 const QuerySource& source,
+                                 const LookOptions& look) {
     PictureReader& pictures = context.images.pictures();
     if (const auto* bytes = std::get_if<SourceBytes>(&source))
-        return pictures.signature(view_of(*bytes), mask);
+        return pictures.look(view_of(*bytes), look);
     if (const auto* id = std::get_if<ImageId>(&source))
-        return context.images.signature(*id);
-    if (const auto* signature = std::get_if<image::Signature>(&source)) return *signature;
+        return context.images.stored_picture(*id, look.kinds, look.autocrop);
+    if (const auto* signature = std::get_if<image::Signature>(&source))
+        return QueryPicture{{{signature->kind, *signature}}, {}};
     if (const auto* url = std::get_if<SourceUrl>(&source)) {
         const auto bytes = fetch_picture(context, *url);
         if (!bytes) return bytes.error();
-        return pictures.signature(view_of(bytes.value()), mask);
+        return pictures.look(view_of(bytes.value()), look);
     }
-    return signature_of_pixels(
-        image::rasterize(std::get<image::StrokePicture>(source)).view(), mask);
+    const image::Raster painted =
+        image::rasterize(std::get<image::StrokePicture>(source));
+    const ImageView view = painted.view();
+    return look_at(view, view.width, view.height, look);
 }
 
-json answer_json(const SearchAnswer& answer,
-                 const image::Signature& signature,
-                 const QueryOptions& options,
-                 Clock::duration took) {
-    json matches = json::array();
-    for (const FoundImage& found : answer.found.images)
-        matches.push_back(match_json(found, static_cast<int>(matches.size()) + 1));
-    json reply{{"matches", std::move(matches)},
-               {"searched", answer.found.searched},
-               {"took_ms", std::chrono::duration<double, std::milli>(took).count()},
-               {"query",
-                {{"profile", options.search.profile.name},
-                 {"m", answer.m},
-                 {"signature", image::signature_to_text(signature)},
-                 {"low_information", signature.low_information}}}};
-    if (options.seq) reply["seq"] = *options.seq;
-    return reply;
+// Adds to the matches why they are as near as they are.
+std::optional<http::Problem> add_explanations(const Context& context,
+                                              const SearchAnswer& answer,
+                                              const image::Profile& profile,
+                                              json& matches) {
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+        const FoundImage& found = answer.found.images[i];
+        const PlannedWay& way = answer.plan.ways()[found.match.way];
+        const auto target = context.images.signature(found.image.id, way.variant);
+        // Gone since it was found: nothing is left to explain.
+        if (!target && target.error().code == ErrorCode::kNotFound) continue;
+        if (!target) return http::problem_of(target.error());
+        Result<json> explanation =
+            explanation_json(way.signature, target.value(), profile, way.query.m);
+        if (!explanation) return http::problem_of(explanation.error());
+        (*explanation)["variant"] = way.variant;
+        matches[i]["explain"] = std::move(explanation).value();
+    }
+    return {};
 }
 
-Reply answer(const Context& context, Inputs& inputs, std::optional<QuerySource> source) {
+json query_json(const SearchAnswer& answer, const QueryOptions& options) {
+    // The first way asks for the picture as it is.
+    const image::Signature& signature = answer.plan.ways().front().signature;
+    const std::vector<image::Profile>& profiles = options.search.plan.profiles;
+    json query{{"profile", profiles.front().name},
+               {"m", answer.plan.m()},
+               {"signature", image::signature_to_text(signature)},
+               {"low_information", signature.low_information}};
+    if (!options.combined) return query;
+    json names = json::array();
+    for (const image::Profile& profile : profiles) names.push_back(profile.name);
+    query["combine"] = std::move(names);
+    query["combine_by"] =
+        options.search.plan.combine_by == image::CombineBy::kWorst ? "worst" : "mean";
+    return query;
+}
+
+// The reply to one query as JSON, or the problem.
+Outcome<json> answer(const Context& context,
+                     Inputs& inputs,
+                     std::optional<QuerySource> source) {
     const Clock::time_point start = Clock::now();
-    const QueryOptions options = read_query_options(inputs);
+    const QueryOptions options = read_query_options(context, inputs);
     if (const auto problem = inputs.refused()) return *problem;
     // Before the picture is decoded for nothing.
     if (!context.images.ready())
         return Error{ErrorCode::kUnavailable, "the collection is still being loaded"};
-    auto signature = signature_of(context, *source, options.mask);
-    if (!signature) return signature.problem();
-    const auto found = context.images.search(*signature, options.search);
+    auto picture = picture_of(context, *source, options.look);
+    if (!picture) return picture.problem();
+    const auto found = context.images.search(*picture, options.search);
     if (!found) return found.error();
-    http::Response response = http::json_response(
-        200, answer_json(found.value(), *signature, options, Clock::now() - start));
+
+    json matches = json::array();
+    const image::Profile& profile = options.search.plan.profiles.front();
+    for (const FoundImage& image : found->found.images)
+        matches.push_back(match_json(image,
+                                     found->plan.ways()[image.match.way],
+                                     profile,
+                                     static_cast<int>(matches.size()) + 1));
+    if (options.explain)
+        if (const auto problem =
+                add_explanations(context, found.value(), profile, matches))
+            return *problem;
+    const Clock::duration took = Clock::now() - start;
+    json reply{{"matches", std::move(matches)},
+               {"searched", found->found.searched},
+               {"took_ms", std::chrono::duration<double, std::milli>(took).count()},
+               {"query", query_json(found.value(), options)}};
+    if (options.seq) reply["seq"] = *options.seq;
+    return reply;
+}
+
+Reply respond(Outcome<json> reply) {
+    if (!reply) return reply.problem();
+    http::Response response = http::json_response(200, *reply);
     response.headers["Cache-Control"] = "no-store";
     return response;
+}
+
+constexpr std::size_t kMaxBatch = 100;
+
+Outcome<json> answer_object(const Context& context, json query) {
+    auto inputs = Inputs::of_object(std::move(query));
+    if (!inputs) return inputs.problem();
+    return answer(context, *inputs, read_query_source(*inputs));
 }
 
 }  // namespace
@@ -93,13 +151,35 @@ http::Cost cost_of_query(const http::Request& request) {
 Reply post_query(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_request(request);
     if (!inputs) return inputs.problem();
-    return answer(context, *inputs, read_query_source(*inputs));
+    return respond(answer(context, *inputs, read_query_source(*inputs)));
 }
 
 Reply get_query(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_query(request);
     if (!inputs) return inputs.problem();
-    return answer(context, *inputs, read_query_source(*inputs));
+    return respond(answer(context, *inputs, read_query_source(*inputs)));
+}
+
+Reply post_query_batch(const Context& context, const http::Request& request) {
+    auto inputs = Inputs::of_request(request);
+    if (!inputs) return inputs.problem();
+    std::optional<json> queries = inputs->member("queries");
+    if (!queries) {
+        inputs->refuse("queries", "is missing: send {\"queries\": [...]}");
+    } else if (!queries->is_array() || queries->empty() || queries->size() > kMaxBatch) {
+        inputs->refuse("queries",
+                       "is not a list of 1 to " + std::to_string(kMaxBatch) + " queries");
+    }
+    if (const auto problem = inputs->refused()) return *problem;
+    json results = json::array();
+    for (json& query : *queries) {
+        // Nobody waits for the rest any more.
+        if (request.cancelled.stop_requested()) break;
+        Outcome<json> result = answer_object(context, std::move(query));
+        results.push_back(result ? *std::move(result)
+                                 : http::problem_json(result.problem(), request));
+    }
+    return respond(json{{"results", std::move(results)}});
 }
 
 Reply get_similar(const Context& context, const http::Request& request) {
@@ -107,7 +187,7 @@ Reply get_similar(const Context& context, const http::Request& request) {
     if (!id) return id.problem();
     auto inputs = Inputs::of_query(request);
     if (!inputs) return inputs.problem();
-    return answer(context, *inputs, QuerySource(*id));
+    return respond(answer(context, *inputs, QuerySource(*id)));
 }
 
 }  // namespace haarmony::server

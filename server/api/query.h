@@ -1,4 +1,4 @@
-// Finding pictures: POST /query, GET /query and GET /images/{id}/similar.
+// Finding pictures: POST /query, GET /query, POST /query/batch and GET /images/{id}/similar.
 #pragma once
 
 #include "server/api/context.h"
@@ -15,6 +15,9 @@ namespace haarmony::server {
 [[nodiscard]] Reply post_query(const Context& context, const http::Request& request);
 // The linkable form: everything in the address.
 [[nodiscard]] Reply get_query(const Context& context, const http::Request& request);
+// At most 100 queries, answered in order; one that fails is a problem in its place.
+[[nodiscard]] Reply post_query_batch(const Context& context,
+                                     const http::Request& request);
 [[nodiscard]] Reply get_similar(const Context& context, const http::Request& request);
 
 }  // namespace haarmony::server

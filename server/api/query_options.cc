@@ -1,11 +1,13 @@
 #include "server/api/query_options.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "engine/image/profile.h"
+#include "server/api/attributes.h"
 
 namespace haarmony::server {
 namespace {
@@ -14,36 +16,86 @@ using nlohmann::json;
 
 constexpr std::int64_t kMaxLimit = 1000;
 constexpr std::size_t kMaxSeqBytes = 256;
+constexpr std::size_t kMaxCombined = 8;
+constexpr std::size_t kMaxTextBytes = 1024;
 constexpr std::array<std::string_view, 2> kMasks{"alpha", "none"};
 constexpr std::array<std::string_view, 3> kOrientations{"none", "mirror", "all"};
+constexpr std::array<std::string_view, 2> kCombineBy{"mean", "worst"};
 constexpr std::array<std::string_view, 3> kKinds{"image", "frame", "all"};
 
-void not_built(Inputs& inputs, std::string_view name, const std::string& what) {
-    inputs.refuse(http::Problem{
-        400, "not_built", what + " is not built yet", std::string(name), {}});
-}
-
-// A word of which only the first is built.
-void only_first(Inputs& inputs,
-                std::string_view name,
-                std::span<const std::string_view> words) {
-    const std::optional<std::string> word = inputs.one_of(name, words);
-    if (word && *word != words.front())
-        not_built(inputs, name, std::string(name) + "=" + *word);
-}
-
-void only_false(Inputs& inputs, std::string_view name) {
-    if (inputs.boolean(name).value_or(false))
-        not_built(inputs, name, std::string(name) + "=true");
-}
-
-std::optional<image::Profile> read_profile(Inputs& inputs) {
-    const std::string name = inputs.text("profile").value_or("painted");
-    std::optional<image::Profile> profile = image::built_in_profile(name);
-    if (!profile)
+// Frames are pictures of videos.
+void only_images(Inputs& inputs) {
+    const std::optional<std::string> kind = inputs.one_of("kind", kKinds);
+    if (kind && *kind != kKinds.front())
         inputs.refuse(http::Problem{
-            400, "unknown_profile", "there is no profile '" + name + "'", "profile", {}});
-    return profile;
+            400, "not_built", "kind=" + *kind + " is not built yet", "kind", {}});
+}
+
+std::optional<image::Profile> find_profile(const Context& context,
+                                           Inputs& inputs,
+                                           std::string_view param,
+                                           const std::string& name) {
+    Result<image::Profile> profile = context.images.profile(name);
+    if (profile) return std::move(profile).value();
+    http::Problem problem = http::problem_of(profile.error());
+    if (profile.error().code == ErrorCode::kNotFound) {
+        problem.status = 400;
+        problem.code = "unknown_profile";
+        problem.detail = "there is no profile '" + name + "'";
+    }
+    problem.param = param;
+    inputs.refuse(std::move(problem));
+    return {};
+}
+
+// The names under "combine", or the one under "profile".
+std::vector<std::string> profile_names(Inputs& inputs) {
+    const std::optional<std::string> single = inputs.text("profile");
+    std::optional<std::vector<std::string>> combined = inputs.strings("combine");
+    if (!combined) return {single.value_or("painted")};
+    if (combined->empty() || combined->size() > kMaxCombined)
+        inputs.refuse("combine",
+                      "names " + std::to_string(combined->size()) +
+                          " profiles, not 1 to " + std::to_string(kMaxCombined));
+    if (single && (combined->empty() || combined->front() != *single))
+        inputs.refuse("profile",
+                      "is '" + *single + "', and 'combine' starts with another one");
+    std::vector<std::string> sorted = *combined;
+    std::ranges::sort(sorted);
+    const auto twice = std::ranges::adjacent_find(sorted);
+    if (twice != sorted.end()) inputs.refuse("combine", "names '" + *twice + "' twice");
+    return *std::move(combined);
+}
+
+void read_profiles(const Context& context, Inputs& inputs, QueryOptions& options) {
+    options.combined = inputs.has("combine");
+    const std::string_view param = options.combined ? "combine" : "profile";
+    options.look.kinds.clear();
+    for (const std::string& name : profile_names(inputs)) {
+        auto profile = find_profile(context, inputs, param, name);
+        if (!profile) return;
+        if (std::ranges::find(options.look.kinds, profile->kind) ==
+            options.look.kinds.end())
+            options.look.kinds.push_back(profile->kind);
+        options.search.plan.profiles.push_back(*std::move(profile));
+    }
+    options.search.plan.combine_by = inputs.one_of("combine_by", kCombineBy) == "worst"
+                                         ? image::CombineBy::kWorst
+                                         : image::CombineBy::kMean;
+}
+
+Orientations read_orientations(Inputs& inputs) {
+    const std::string word =
+        inputs.one_of("orientations", kOrientations).value_or("none");
+    if (word == "mirror") return Orientations::kMirror;
+    return word == "all" ? Orientations::kAll : Orientations::kNone;
+}
+
+std::int32_t read_aspect_weight(Inputs& inputs) {
+    constexpr double kHundredths = 100.0;
+    const double weight =
+        inputs.number("aspect_weight", 0, image::kMaxWeight / kHundredths).value_or(0);
+    return static_cast<std::int32_t>(std::lround(weight * kHundredths));
 }
 
 // Numbers and strings come back as they were sent; text has no type, so what reads as a
@@ -69,31 +121,34 @@ std::optional<json> read_seq(Inputs& inputs) {
 
 }  // namespace
 
-void refuse_not_built(Inputs& inputs, std::string_view name) {
-    if (inputs.any(name)) not_built(inputs, name, std::string(name));
+schema::ImageFilter read_filter(Inputs& inputs) {
+    schema::ImageFilter filter;
+    filter.text = inputs.text("text").value_or("");
+    if (filter.text.size() > kMaxTextBytes)
+        inputs.refuse("text",
+                      "is longer than " + std::to_string(kMaxTextBytes) + " bytes");
+    filter.tags = read_tags(inputs).value_or(std::vector<std::string>{});
+    return filter;
 }
 
-QueryOptions read_query_options(Inputs& inputs) {
+QueryOptions read_query_options(const Context& context, Inputs& inputs) {
     QueryOptions options;
+    PlanOptions& plan = options.search.plan;
     if (const auto limit = inputs.integer("limit", 1, kMaxLimit))
         options.search.limit = static_cast<int>(*limit);
-    if (auto profile = read_profile(inputs)) options.search.profile = *std::move(profile);
+    read_profiles(context, inputs, options);
     if (const auto m = inputs.integer("m", 1, image::kMaxCoefficients))
-        options.search.m = static_cast<int>(*m);
-    options.search.min_similarity = inputs.number("min_similarity", 0, 1);
-    if (inputs.one_of("mask", kMasks) == "none") options.mask = Mask::kNone;
+        plan.m = static_cast<int>(*m);
+    plan.min_similarity = inputs.number("min_similarity", 0, 1);
+    plan.orientations = read_orientations(inputs);
+    plan.aspect_weight = read_aspect_weight(inputs);
+    if (inputs.one_of("mask", kMasks) == "none") options.look.mask = Mask::kNone;
+    options.look.autocrop = inputs.boolean("autocrop").value_or(false);
+    plan.content = options.look.autocrop;
+    options.search.filter = read_filter(inputs);
+    options.explain = inputs.boolean("explain").value_or(false);
     options.seq = read_seq(inputs);
-
-    only_first(inputs, "orientations", kOrientations);
-    only_first(inputs, "kind", kKinds);
-    only_false(inputs, "autocrop");
-    only_false(inputs, "explain");
-    const auto aspect_weight =
-        inputs.number("aspect_weight", 0, std::numeric_limits<double>::max());
-    if (aspect_weight.value_or(0) > 0)
-        not_built(inputs, "aspect_weight", "an aspect_weight above 0");
-    for (const std::string_view name : {"combine", "combine_by", "tags", "text"})
-        refuse_not_built(inputs, name);
+    only_images(inputs);
     return options;
 }
 

@@ -5,23 +5,27 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "server/api/context.h"
 #include "server/api/inputs.h"
 #include "server/app/image_service.h"
-#include "server/app/picture_reader.h"
+#include "server/app/query_picture.h"
 
 namespace haarmony::server {
 
 struct QueryOptions {
     SearchOptions search;
-    Mask mask = Mask::kAlpha;
+    LookOptions look;  // in the kinds of all profiles
+    bool combined = false;
+    bool explain = false;
     std::optional<nlohmann::json> seq;  // a number or a string, to be echoed
 };
 
 // Problems are left in `inputs`.
-[[nodiscard]] QueryOptions read_query_options(Inputs& inputs);
+[[nodiscard]] QueryOptions read_query_options(const Context& context, Inputs& inputs);
 
-// Refuses `name` wherever it is given.
-void refuse_not_built(Inputs& inputs, std::string_view name);
+// The text and the tags that narrow a search or a list.
+[[nodiscard]] schema::ImageFilter read_filter(Inputs& inputs);
 
 }  // namespace haarmony::server

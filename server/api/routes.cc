@@ -25,6 +25,7 @@ constexpr std::array kRoutes{
           post_query,
           cost_of_query},
     Route{"GET", "/query", Cost::kCheap, Body::kNone, false, get_query, cost_of_query},
+    Route{"POST", "/query/batch", Cost::kCostly, Body::kPicture, false, post_query_batch},
     Route{"GET", "/images", Cost::kCheap, Body::kNone, false, list_images},
     Route{"POST", "/images", Cost::kCostly, Body::kPicture, false, post_image},
     Route{"GET", "/images/{id}", Cost::kCheap, Body::kNone, false, get_image},

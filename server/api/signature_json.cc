@@ -59,7 +59,8 @@ Result<image::OpenSignature> read_open(const json& average, const json& coeffici
 
 json signature_json(const image::Signature& signature) {
     const image::OpenSignature open = image::to_open(signature);
-    return {{"average", open.average},
+    return {{"kind", image::kind_name(open.kind)},
+            {"average", open.average},
             {"coefficients", open.coefficients},
             {"signature", image::signature_to_text(signature)},
             {"low_information", signature.low_information}};
@@ -72,11 +73,18 @@ Result<image::Signature> parse_signature(const json& value) {
     json coefficients;
     json opaque;
     json low_information = false;
+    image::SignatureKind kind;
     for (const auto& [name, member] : value.items()) {
         if (name == "average") {
             average = member;
         } else if (name == "coefficients") {
             coefficients = member;
+        } else if (name == "kind") {
+            const auto known =
+                image::kind_from_name(member.is_string() ? member.get<std::string>() : "");
+            if (!known)
+                return refused("kind " + member.dump().substr(0, 40) + " is not known");
+            kind = *known;
         } else if (name == "signature" && member.is_string()) {
             opaque = member;
         } else if (name == "low_information" && member.is_boolean()) {
@@ -86,15 +94,16 @@ Result<image::Signature> parse_signature(const json& value) {
                            "' is not known or has the wrong type");
         }
     }
-    const Result<image::OpenSignature> open = read_open(average, coefficients);
+    Result<image::OpenSignature> open = read_open(average, coefficients);
     if (!open) return open.error();
+    open->kind = kind;
     Result<image::Signature> signature = image::from_open(open.value());
     if (!signature) return refused(signature.error().message);
     if (low_information.get<bool>()) signature->low_information = true;
     if (opaque.is_null()) return signature;
 
     Result<image::Signature> same = from_text(opaque.get_ref<const std::string&>());
-    if (same && same->channels != signature->channels)
+    if (same && (same->kind != kind || same->channels != signature->channels))
         return refused("the member 'signature' is that of another picture");
     return same;
 }

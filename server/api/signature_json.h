@@ -1,5 +1,6 @@
 // Signatures in requests and replies: the opaque text, or the open form
-// {"average": [Y, I, Q], "coefficients": [[...], [...], [...]]}.
+// {"average": [Y, I, Q], "coefficients": [[...], [...], [...]], "kind": "yiq-standard"};
+// without "kind" it is of that kind.
 //
 // Errors  kInvalidArgument naming the member and the bad value.
 // Threads const-safe.

@@ -57,7 +57,9 @@ Problem problem_of(const Error& error) {
     return internal_problem();
 }
 
-Response to_response(const Problem& problem, const Request& request) {
+namespace {
+
+nlohmann::ordered_json members_of(const Problem& problem, const Request& request) {
     nlohmann::ordered_json members;
     members["type"] = "about:blank";
     members["title"] = reason_phrase(problem.status);
@@ -67,13 +69,23 @@ Response to_response(const Problem& problem, const Request& request) {
     members["code"] = problem.code;
     if (!problem.param.empty()) members["param"] = problem.param;
     members["request_id"] = request.request_id;
+    return members;
+}
 
+}  // namespace
+
+nlohmann::json problem_json(const Problem& problem, const Request& request) {
+    return members_of(problem, request);
+}
+
+Response to_response(const Problem& problem, const Request& request) {
     Response response{.status = problem.status, .headers = problem.headers, .body = {}};
     response.headers["Content-Type"] = "application/problem+json";
     response.headers["Cache-Control"] = "no-store";
     // Details repeat what clients sent, so they may carry bytes that are not UTF-8.
-    response.body =
-        members.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    response.body = members_of(problem, request)
+                        .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                    "\n";
     return response;
 }
 

@@ -5,6 +5,7 @@
 //         stable snake_case; never a backtrace, never a path of the server's disk.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,8 @@ struct Problem {
 // A failure of the server itself: a 500 whose text says nothing about its inside.
 [[nodiscard]] Problem internal_problem();
 [[nodiscard]] Problem problem_of(const Error& error);
+// The object alone, for a reply that holds several answers.
+[[nodiscard]] nlohmann::json problem_json(const Problem& problem, const Request& request);
 [[nodiscard]] Response to_response(const Problem& problem, const Request& request);
 [[nodiscard]] std::string_view reason_phrase(int status);
 
