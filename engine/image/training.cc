@@ -308,10 +308,6 @@ RealWeights training_features(const Signature& query,
     return features;
 }
 
-double probability(const Calibration& calibration, double distance) {
-    return logistic(calibration.intercept - calibration.scale * distance);
-}
-
 Result<TrainingReport> train(std::span<const TrainingPair> pairs,
                              std::span<const Signature> mismatches,
                              const Profile& base,

@@ -81,9 +81,6 @@ struct TrainingReport {
                                            const Profile& base,
                                            const TrainingOptions& options);
 
-// F(intercept - scale * distance), distance as query.h has it.
-[[nodiscard]] double probability(const Calibration& calibration, double distance);
-
 // The features t_k of one row, [channel][bin], both signatures cut at profile.m.
 [[nodiscard]] RealWeights training_features(const Signature& query,
                                             const Signature& target,
