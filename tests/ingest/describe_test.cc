@@ -5,6 +5,7 @@
 #include "engine/image/signature_codec.h"
 #include "ingest/dimensions.h"
 #include "ingest/thumbnail.h"
+#include "ingest/variant.h"
 #include "tests/ingest/samples.h"
 
 namespace haarmony::ingest {
@@ -21,7 +22,7 @@ TEST(ContentHash, IsSha256InLowerCaseHex) {
 TEST(Describe, FillsEverythingThatThePixelsAndBytesGive) {
     const Bytes file =
         write_jpeg(sample_picture(800, 600, 3), {.exif = exif_segment(6, false)});
-    const auto image = describe(shared_decoder(), file);
+    const auto image = describe(shared_decoder(), file, kMainKind);
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->width, 600);
     EXPECT_EQ(image->height, 800);
@@ -40,14 +41,36 @@ TEST(Describe, FillsEverythingThatThePixelsAndBytesGive) {
 TEST(Describe, AQueryBySameBytesHasTheSameSignature) {
     for (const SampleFile& file : sample_files()) {
         const std::string name(describe_format(file.format).name);
-        const auto stored = describe(shared_decoder(), file.bytes);
+        const auto stored = describe(shared_decoder(), file.bytes, kMainKind);
         ASSERT_TRUE(stored) << name << ": " << stored.error().message;
-        const auto query = describe_query(shared_decoder(), file.bytes);
+        const auto query = shared_decoder().decode(file.bytes);
         ASSERT_TRUE(query) << name;
         const auto decoded = image::decode_signature(stored->signature);
         ASSERT_TRUE(decoded) << name << ": " << decoded.error().message;
-        EXPECT_EQ(*decoded, *query) << name;
+        EXPECT_EQ(*decoded, image::make_signature(query->view())) << name;
+        EXPECT_TRUE(stored->variants.empty()) << name;
     }
+}
+
+TEST(Describe, EveryKindInUseGetsASignature) {
+    const std::vector<image::SignatureKind> kinds = {
+        {},
+        {image::ColorSpace::kLab, image::Decomposition::kStandard},
+        {image::ColorSpace::kLab, image::Decomposition::kNonstandard}};
+    const Bytes file = write_jpeg(sample_picture(90, 60, 3), {});
+    const auto stored = describe(shared_decoder(), file, kinds);
+    const auto picture = shared_decoder().decode(file);
+    ASSERT_TRUE(stored && picture);
+    ASSERT_EQ(stored->variants.size(), 2U);
+    EXPECT_EQ(stored->variants[0].variant, "lab-standard");
+    EXPECT_EQ(stored->variants[1].variant, "lab-nonstandard");
+    for (std::size_t i = 1; i < kinds.size(); ++i) {
+        EXPECT_EQ(
+            stored->variants[i - 1].signature,
+            image::encode_signature(image::make_signature(picture->view(), kinds[i])));
+    }
+    EXPECT_EQ(signature_variants(picture->view(), kinds)[0],
+              (schema::SignatureVariant{kMainVariant, stored->signature}));
 }
 
 TEST(Describe, AlphaReachesTheSignature) {
@@ -68,29 +91,29 @@ TEST(Describe, AlphaReachesTheSignature) {
             std::copy_n(two.begin(), 4, other.row(y) + 4 * x);
         }
     }
-    const auto a =
-        describe_query(shared_decoder(), write_with_oiio(clear, {.extension = "png"}));
-    const auto b =
-        describe_query(shared_decoder(), write_with_oiio(other, {.extension = "png"}));
+    const auto a = describe(
+        shared_decoder(), write_with_oiio(clear, {.extension = "png"}), kMainKind);
+    const auto b = describe(
+        shared_decoder(), write_with_oiio(other, {.extension = "png"}), kMainKind);
     ASSERT_TRUE(a && b);
-    EXPECT_EQ(*a, *b);
+    EXPECT_EQ(a->signature, b->signature);
 }
 
 TEST(Describe, FlatPicturesHaveLowInformation) {
     const Bytes file =
         write_with_oiio(flat_picture(40, 40, {9, 99, 199}), {.extension = "png"});
-    const auto image = describe(shared_decoder(), file);
+    const auto image = describe(shared_decoder(), file, kMainKind);
     ASSERT_TRUE(image);
     EXPECT_TRUE(image->low_information);
 }
 
 TEST(Describe, WhatCannotBeDecodedIsThatError) {
-    const auto image = describe(shared_decoder(), text_bytes("%PDF-1.4"));
+    const auto image = describe(shared_decoder(), text_bytes("%PDF-1.4"), kMainKind);
     ASSERT_FALSE(image);
     EXPECT_EQ(image.error().code, ErrorCode::kUnsupportedFormat);
-    const auto query = describe_query(shared_decoder(), png_header(3, 3));
-    ASSERT_FALSE(query);
-    EXPECT_EQ(query.error().code, ErrorCode::kUndecodable);
+    const auto damaged = describe(shared_decoder(), png_header(3, 3), kMainKind);
+    ASSERT_FALSE(damaged);
+    EXPECT_EQ(damaged.error().code, ErrorCode::kUndecodable);
 }
 
 }  // namespace

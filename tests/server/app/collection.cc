@@ -83,7 +83,8 @@ std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
 schema::NewImage file_row(unsigned number, const std::string& uri) {
     ingest::Decoder decoder{ingest::DecodeLimits{}};
-    schema::NewImage row = must(ingest::describe(decoder, jpeg_scene(number), ingest::kMainKind));
+    schema::NewImage row =
+        must(ingest::describe(decoder, jpeg_scene(number), ingest::kMainKind));
     row.origin = schema::ImageOrigin::kFile;
     row.uri = uri;
     return row;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <vector>
 
 #include "engine/image/query.h"
+#include "ingest/variant.h"
 #include "tests/server/app/collection.h"
 
 namespace haarmony::server {
@@ -55,9 +57,19 @@ class ImageSearchTest : public testing::Test {
             schema::NewImage row = file_row(7, "file:///p/" + std::to_string(i));
             EXPECT_TRUE(connection->images().add(row));
         }
-        const auto profile = image::built_in_profile("painted");
-        query_ = image::make_query(
-            image::make_signature(image::scene(64, 64, 3).view()), *profile, 60);
+        const image::Signature signature =
+            image::make_signature(image::scene(64, 64, 3).view());
+        picture_.signatures = {{signature.kind, signature}};
+        options_.profiles = {*image::built_in_profile("painted")};
+        query_ = image::make_query(signature, options_.profiles.front(), 60);
+    }
+
+    [[nodiscard]] SearchPlan plan_over(
+        const std::shared_ptr<const FixedSnapshot>& snapshot) const {
+        auto plan =
+            SearchPlan::make(picture_, options_, {{ingest::kMainVariant, snapshot}}, 60);
+        EXPECT_TRUE(plan);
+        return std::move(plan).value();
     }
 
     void remove(const std::set<std::int64_t>& ids) {
@@ -86,20 +98,22 @@ class ImageSearchTest : public testing::Test {
     static constexpr int kRows = 20;
     Collection collection_;
     ReadConnections readers_;
+    QueryPicture picture_;
+    PlanOptions options_;
     image::Query query_;
 };
 
 TEST_F(ImageSearchTest, TellsRowsAndDistancesOfTheMatches) {
-    const FixedSnapshot snapshot(kRows);
-    const auto found = search_images(snapshot, query_, 3, {}, readers_);
+    const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
+    const auto found = search_images(plan_over(snapshot), 3, nullptr, readers_);
     ASSERT_TRUE(found);
     EXPECT_EQ(ids_of(found.value()), expected({}, 3));
     EXPECT_EQ(found->searched, kRows);
-    EXPECT_EQ(snapshot.searches, 1);
+    EXPECT_EQ(snapshot->searches, 1);
     for (const FoundImage& image : found->images) {
         const image::Score score = FixedSnapshot::score_of(to_int(image.image.id));
-        EXPECT_EQ(image.distance, image::distance(query_, score));
-        EXPECT_EQ(image.similarity, image::similarity(query_, score));
+        EXPECT_EQ(image.match.distance, image::distance(query_, score));
+        EXPECT_EQ(image.match.similarity, image::similarity(query_, score));
         EXPECT_EQ(image.image.uri,
                   "file:///p/" + std::to_string(to_int(image.image.id) - 1));
     }
@@ -123,8 +137,9 @@ TEST_F(ImageSearchTest, RowsThatVanishedAreReplacedByTheNextBest) {
         remove(fresh);
         gone.insert(fresh.begin(), fresh.end());
         for (const int limit : {1, 5, 8, kRows, 1000}) {
-            const FixedSnapshot snapshot(kRows);
-            const auto found = search_images(snapshot, query_, limit, {}, readers_);
+            const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
+            const auto found =
+                search_images(plan_over(snapshot), limit, nullptr, readers_);
             ASSERT_TRUE(found);
             EXPECT_EQ(ids_of(found.value()), expected(gone, limit))
                 << gone.size() << " gone, limit " << limit;
@@ -134,18 +149,19 @@ TEST_F(ImageSearchTest, RowsThatVanishedAreReplacedByTheNextBest) {
 
 TEST_F(ImageSearchTest, NothingLeftIsAnEmptyAnswer) {
     remove({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20});
-    const FixedSnapshot snapshot(kRows);
-    const auto found = search_images(snapshot, query_, 5, {}, readers_);
+    const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
+    const auto found = search_images(plan_over(snapshot), 5, nullptr, readers_);
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->images.empty());
 }
 
 TEST_F(ImageSearchTest, MinSimilarityCutsTheTail) {
     remove({2});
-    const FixedSnapshot snapshot(kRows);
+    const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
     for (std::int64_t last = 1; last <= kRows; ++last) {
         const double least = image::similarity(query_, FixedSnapshot::score_of(last));
-        const auto found = search_images(snapshot, query_, 6, least, readers_);
+        options_.min_similarity = least;
+        const auto found = search_images(plan_over(snapshot), 6, nullptr, readers_);
         ASSERT_TRUE(found);
         std::vector<std::int64_t> wanted;
         for (const std::int64_t id : expected({2}, 6))
@@ -159,7 +175,8 @@ TEST_F(ImageSearchTest, AConnectionThatCannotBeHadIsAnError) {
     ReadConnections broken([]() -> Result<std::unique_ptr<Connection>> {
         return Error{ErrorCode::kIo, "no connection"};
     });
-    const auto found = search_images(FixedSnapshot(kRows), query_, 5, {}, broken);
+    const auto found = search_images(
+        plan_over(std::make_shared<FixedSnapshot>(kRows)), 5, nullptr, broken);
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().message, "no connection");
 }

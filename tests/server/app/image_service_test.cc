@@ -19,16 +19,19 @@ class ImageServiceTest : public testing::Test {
   protected:
     [[nodiscard]] ImageService& service() { return *collection_.service; }
 
-    static image::Signature signature(unsigned number) {
+    static QueryPicture picture(unsigned number, const LookOptions& look = {}) {
         PictureReader reader{ingest::DecodeLimits{}};
-        return reader.signature(jpeg_scene(number), Mask::kAlpha).value();
+        return reader.look(jpeg_scene(number), look).value();
+    }
+    static image::Signature signature(unsigned number) {
+        return picture(number).signatures.at({});
     }
     static SearchOptions options(const std::string& profile = "painted") {
         SearchOptions options;
-        options.profile = *image::built_in_profile(profile);
+        options.plan.profiles = {*image::built_in_profile(profile)};
         return options;
     }
-    [[nodiscard]] std::vector<ImageId> found(const image::Signature& query) {
+    [[nodiscard]] std::vector<ImageId> found(const QueryPicture& query) {
         const auto answer = service().search(query, options());
         EXPECT_TRUE(answer);
         std::vector<ImageId> ids;
@@ -50,11 +53,11 @@ TEST_F(ImageServiceTest, AWriteIsSeenByTheNextSearchAndTheNextRead) {
     collection_.open();
     for (unsigned number = 1; number <= 20; ++number) {
         const ImageId id = collection_.add(number);
-        EXPECT_EQ(found(signature(number)).front(), id);
+        EXPECT_EQ(found(picture(number)).front(), id);
         EXPECT_TRUE(service().get(id));
         if (number % 2 != 0) continue;
         ASSERT_TRUE(service().remove(id));
-        const std::vector<ImageId> left = found(signature(number));
+        const std::vector<ImageId> left = found(picture(number));
         EXPECT_EQ(std::count(left.begin(), left.end(), id), 0);
         const auto gone = service().get(id);
         ASSERT_FALSE(gone);
@@ -71,15 +74,16 @@ TEST_F(ImageServiceTest, RanksAsTheMetricDoes) {
     }
     for (const std::string profile : {"painted", "scanned"}) {
         SearchOptions wanted = options(profile);
-        const image::Signature query = signature(77);
+        const QueryPicture query = picture(77);
+        const image::Profile& used = wanted.plan.profiles.front();
         const auto answer = service().search(query, wanted);
         ASSERT_TRUE(answer);
-        EXPECT_EQ(answer->m, wanted.profile.m);
+        EXPECT_EQ(answer->plan.m(), used.m);
         EXPECT_EQ(answer->found.searched, 12);
         std::vector<std::pair<std::int64_t, std::int64_t>> expected;
         for (std::size_t i = 0; i < stored.size(); ++i)
             expected.emplace_back(
-                image::metric(query, stored[i], wanted.profile, wanted.profile.m),
+                image::metric(query.signatures.at({}), stored[i], used, used.m),
                 static_cast<std::int64_t>(i) + 1);
         std::sort(expected.begin(), expected.end());
         ASSERT_EQ(answer->found.images.size(), expected.size());
@@ -93,13 +97,13 @@ TEST_F(ImageServiceTest, TheCutIsMadeWhereTheIndexEnds) {
     collection_.open(10);
     collection_.add(1);
     SearchOptions wanted = options();
-    const auto by_profile = service().search(signature(1), wanted);
+    const auto by_profile = service().search(picture(1), wanted);
     ASSERT_TRUE(by_profile);
-    EXPECT_EQ(by_profile->m, 10);
-    wanted.m = 100;
-    EXPECT_EQ(service().search(signature(1), wanted).value().m, 10);
-    wanted.m = 4;
-    EXPECT_EQ(service().search(signature(1), wanted).value().m, 4);
+    EXPECT_EQ(by_profile->plan.m(), 10);
+    wanted.plan.m = 100;
+    EXPECT_EQ(service().search(picture(1), wanted).value().plan.m(), 10);
+    wanted.plan.m = 4;
+    EXPECT_EQ(service().search(picture(1), wanted).value().plan.m(), 4);
 }
 
 TEST_F(ImageServiceTest, KeepsWhatIsSaidAboutAPicture) {
@@ -134,13 +138,13 @@ TEST_F(ImageServiceTest, AnswersUnavailableUntilTheCollectionIsLoaded) {
     wanted.poll_interval = std::chrono::milliseconds(1);
     auto opened = ImageService::open(wanted);
     ASSERT_TRUE(opened) << opened.error().message;
-    const auto refused = opened.value()->search(signature(1), options());
+    const auto refused = opened.value()->search(picture(1), options());
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable);
     EXPECT_FALSE(opened.value()->status().value().ready);
     sql("ALTER TABLE elsewhere RENAME TO changes");
     EXPECT_TRUE(becomes_true([&] { return opened.value()->ready(); }));
-    EXPECT_TRUE(opened.value()->search(signature(1), options()));
+    EXPECT_TRUE(opened.value()->search(picture(1), options()));
 }
 
 TEST_F(ImageServiceTest, ADamagedSignatureIsUndecodableAndTheRestIsFound) {
@@ -153,7 +157,7 @@ TEST_F(ImageServiceTest, ADamagedSignatureIsUndecodableAndTheRestIsFound) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kUndecodable);
     EXPECT_TRUE(
-        becomes_true([&] { return found(signature(2)) == std::vector<ImageId>{sound}; }));
+        becomes_true([&] { return found(picture(2)) == std::vector<ImageId>{sound}; }));
     EXPECT_TRUE(becomes_true([&] { return service().status().value().damaged == 1; }));
 }
 
@@ -203,9 +207,9 @@ TEST_F(ImageServiceTest, SearchesStayRightWhileOthersAddAndRemove) {
     std::vector<ImageId> staying;
     for (unsigned number = 1; number <= 5; ++number)
         staying.push_back(collection_.add(number));
-    const std::vector<ImageId> order = found(signature(1));
+    const std::vector<ImageId> order = found(picture(1));
     ASSERT_EQ(order.size(), staying.size());
-    const image::Signature query = signature(1);
+    const QueryPicture query = picture(1);
     const std::vector<std::uint8_t> passing = jpeg_scene(9);
 
     std::atomic<bool> done = false;

@@ -2,56 +2,30 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "engine/image/signature_codec.h"
+#include "ingest/describe.h"
 #include "tests/engine/image/pictures.h"
 #include "tests/server/app/collection.h"
 
 namespace haarmony::server {
 namespace {
 
-// A scene whose left half is opaque; the rest fades out.
+LookOptions look_with(Mask mask) {
+    LookOptions look;
+    look.mask = mask;
+    return look;
+}
+
+// Without transparency the two masks are one.
 image::Pixels half_transparent() {
     image::Pixels pixels = image::noise(64, 48, 4, 5);
     for (int y = 0; y < pixels.height; ++y)
-        for (int x = 0; x < pixels.width; ++x)
-            pixels.at(x, y, 3) = static_cast<std::uint8_t>(x < 32 ? 255 : 255 - 4 * x);
+        for (int x = 32; x < pixels.width; ++x) pixels.at(x, y, 3) = 0;
     return pixels;
-}
-
-// By the definition of compositing over black, in floating point.
-image::Pixels over_black(const image::Pixels& picture) {
-    image::Pixels opaque = image::flat(picture.width, picture.height, {0, 0, 0});
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x)
-            for (int channel = 0; channel < 3; ++channel)
-                opaque.at(x, y, channel) = static_cast<std::uint8_t>(std::floor(
-                    picture.at(x, y, channel) * (picture.at(x, y, 3) / 255.0) + 0.5));
-    return opaque;
-}
-
-TEST(PictureReader, MaskNoneCountsTransparencyAsBlack) {
-    const image::Pixels picture = half_transparent();
-    EXPECT_EQ(signature_of_pixels(picture.view(), Mask::kNone),
-              image::make_signature(over_black(picture).view()));
-}
-
-TEST(PictureReader, MaskAlphaIsTheRuleOfIngest) {
-    const image::Pixels picture = half_transparent();
-    EXPECT_EQ(signature_of_pixels(picture.view(), Mask::kAlpha),
-              image::make_signature(picture.view()));
-    EXPECT_NE(signature_of_pixels(picture.view(), Mask::kAlpha),
-              signature_of_pixels(picture.view(), Mask::kNone));
-}
-
-TEST(PictureReader, MaskMakesNoDifferenceToAnOpaquePicture) {
-    const image::Pixels picture = image::scene(40, 30, 3);
-    EXPECT_EQ(signature_of_pixels(picture.view(), Mask::kAlpha),
-              signature_of_pixels(picture.view(), Mask::kNone));
 }
 
 TEST(PictureReader, BytesGiveTheSignatureOfTheirPixels) {
@@ -59,19 +33,22 @@ TEST(PictureReader, BytesGiveTheSignatureOfTheirPixels) {
     const image::Pixels picture = half_transparent();
     const std::vector<std::uint8_t> png = png_of(picture.view());
     for (const Mask mask : {Mask::kAlpha, Mask::kNone}) {
-        const auto signature = reader.signature(png, mask);
-        ASSERT_TRUE(signature) << signature.error().message;
-        EXPECT_EQ(signature.value(), signature_of_pixels(picture.view(), mask));
+        const auto found = reader.look(png, look_with(mask));
+        ASSERT_TRUE(found) << found.error().message;
+        const QueryPicture expected =
+            look_at(picture.view(), picture.width, picture.height, look_with(mask));
+        EXPECT_EQ(found->signatures, expected.signatures);
+        EXPECT_EQ(found->log_aspect, expected.log_aspect);
     }
 }
 
 TEST(PictureReader, WhatIsStoredIsWhatAQueryAsks) {
     PictureReader reader{ingest::DecodeLimits{}};
     const std::vector<std::uint8_t> jpeg = jpeg_scene(4);
-    const auto row = reader.describe(jpeg);
-    const auto query = reader.signature(jpeg, Mask::kAlpha);
+    const auto row = reader.describe(jpeg, ingest::kMainKind);
+    const auto query = reader.look(jpeg, {});
     ASSERT_TRUE(row && query);
-    EXPECT_EQ(row->signature, image::encode_signature(query.value()));
+    EXPECT_EQ(row->signature, image::encode_signature(query->signatures.at({})));
 }
 
 TEST(PictureReader, GivesTheDecodersErrors) {
@@ -81,14 +58,14 @@ TEST(PictureReader, GivesTheDecodersErrors) {
     std::vector<std::uint8_t> truncated = png_of(image::scene(40, 30, 3).view());
     truncated.resize(truncated.size() / 2);
     for (const Mask mask : {Mask::kAlpha, Mask::kNone}) {
-        const auto no_format = reader.signature(unknown, mask);
+        const auto no_format = reader.look(unknown, look_with(mask));
         ASSERT_FALSE(no_format);
         EXPECT_EQ(no_format.error().code, ErrorCode::kUnsupportedFormat);
-        const auto damaged = reader.signature(truncated, mask);
+        const auto damaged = reader.look(truncated, look_with(mask));
         ASSERT_FALSE(damaged);
         EXPECT_EQ(damaged.error().code, ErrorCode::kUndecodable);
     }
-    const auto row = reader.describe(truncated);
+    const auto row = reader.describe(truncated, ingest::kMainKind);
     ASSERT_FALSE(row);
     EXPECT_EQ(row.error().code, ErrorCode::kUndecodable);
 }
@@ -100,10 +77,11 @@ TEST(PictureReader, DecodesOnManyThreadsAtOnce) {
     for (unsigned number = 0; number < wrong.size(); ++number)
         threads.emplace_back([&, number] {
             const std::vector<std::uint8_t> jpeg = jpeg_scene(number);
-            const auto first = reader.signature(jpeg, Mask::kAlpha);
+            const auto first = reader.look(jpeg, {});
             for (int i = 0; i < 10; ++i) {
-                const auto again = reader.signature(jpeg, Mask::kAlpha);
-                if (!first || !again || again.value() != first.value()) ++wrong[number];
+                const auto again = reader.look(jpeg, {});
+                if (!first || !again || again->signatures != first->signatures)
+                    ++wrong[number];
             }
         });
     for (std::thread& thread : threads) thread.join();
