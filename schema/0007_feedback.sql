@@ -11,7 +11,7 @@ CREATE TABLE feedback (
     CONSTRAINT kind_is_a_word CHECK (length(kind) BETWEEN 1 AND 64),
     CONSTRAINT query_is_there CHECK (signature IS NOT NULL OR strokes IS NOT NULL),
     CONSTRAINT signature_is_not_empty CHECK (length(signature) > 0),
-    CONSTRAINT strokes_are_json CHECK (json_valid(strokes)),
+    CONSTRAINT strokes_are_json CHECK (strokes IS NULL OR json_valid(strokes)),
     CONSTRAINT seconds_are_a_time CHECK (seconds >= 0 AND seconds < 9e999)
 ) STRICT;
 

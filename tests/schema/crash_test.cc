@@ -4,7 +4,10 @@
 
 #include <filesystem>
 
+#include "schema/duplicate_store.h"
+#include "schema/feedback_store.h"
 #include "schema/image_store.h"
+#include "schema/job_store.h"
 #include "schema/migrate.h"
 #include "tests/schema/child_process.h"
 #include "tests/schema/pictures.h"
@@ -91,6 +94,59 @@ TEST(Crash, AtAnyMomentCommittedBatchesAreWholeAndNumbersGoOn) {
         ImageStore store(database);
         expect(store.add(upload_picture(1)));
         EXPECT_EQ(expect(store.changes_after(last, 10)).size(), 1u);
+    }
+}
+
+TEST(Crash, AtAnyMomentJobsFeedbackAndDuplicatesAreWhole) {
+    const ScratchFolder folder;
+    for (int stop_after = 1; stop_after <= 4; ++stop_after) {
+        SCOPED_TRACE(stop_after);
+        const std::string path = folder.file(std::to_string(stop_after) + ".db");
+        int reported = 0;
+        {
+            ChildProcess child({"stores", path});
+            while (reported < stop_after) {
+                const auto line = child.read_line();
+                ASSERT_TRUE(line.has_value());
+                reported = std::stoi(*line);
+            }
+            for (const std::string& line : child.kill()) reported = std::stoi(line);
+        }
+        Database database = open_database(path);
+        EXPECT_EQ(sql_text(database.handle(), "PRAGMA integrity_check"), "ok");
+
+        // The round that was cut off may have come to any of its steps.
+        JobStore jobs(database);
+        const auto all = expect(jobs.list(1000, std::nullopt));
+        ASSERT_GE(all.size(), static_cast<std::size_t>(reported));
+        ASSERT_LE(all.size(), static_cast<std::size_t>(reported) + 1);
+        for (const Job& job : all) {
+            const auto progress = job.counts.seen;
+            if (job.id <= reported) {
+                EXPECT_EQ(progress, job.id);
+            }
+            EXPECT_TRUE(progress == job.id || progress == 0);
+            EXPECT_EQ(job.counts.added, progress);
+            EXPECT_EQ(job.position, progress == 0 ? "" : std::to_string(progress));
+            EXPECT_EQ(job.errors.size(), progress == 0 ? 0u : 3u);
+        }
+        const auto running = sql_integer(
+            database.handle(), "SELECT count(*) FROM jobs WHERE state = 'running'");
+        EXPECT_GE(running, reported);
+        EXPECT_EQ(expect(jobs.requeue_running()), running);
+        EXPECT_EQ(expect(jobs.next_queued())->position, "1");
+
+        FeedbackStore feedback(database);
+        EXPECT_GE(expect(feedback.count("painted")), reported);
+        DuplicateStore duplicates(database);
+        const auto generation = expect(duplicates.published_generation());
+        EXPECT_TRUE(generation == reported || generation == reported + 1) << generation;
+        const auto pairs = expect(duplicates.pairs(0));
+        ASSERT_EQ(pairs.size(), 2u);
+        for (const DuplicatePair& pair : pairs) {
+            EXPECT_EQ(pair.similarity, static_cast<double>(generation));
+        }
+        EXPECT_GT(expect(duplicates.begin_generation()), generation);
     }
 }
 

@@ -23,7 +23,26 @@ struct Row {
     std::set<std::string> tags;
     std::string failure;
     std::int64_t revision;
+    std::map<std::string, std::vector<std::uint8_t>> variants = {};
 };
+
+std::map<std::string, std::vector<std::uint8_t>> by_name(
+    std::span<const SignatureVariant> variants) {
+    std::map<std::string, std::vector<std::uint8_t>> named;
+    for (const SignatureVariant& one : variants) named[one.variant] = one.signature;
+    return named;
+}
+
+// Some of three variants, of few different contents.
+std::vector<SignatureVariant> some_variants(unsigned choice) {
+    std::vector<SignatureVariant> variants;
+    for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((choice & bit) == 0) continue;
+        variants.push_back(
+            {"v" + std::to_string(bit), some_bytes(static_cast<int>(choice % 16), 40)});
+    }
+    return variants;
+}
 
 using Model = std::map<std::int64_t, Row>;
 
@@ -35,7 +54,8 @@ Row row_of(const NewImage& image) {
             image.signature,
             {image.tags.begin(), image.tags.end()},
             "",
-            1};
+            1,
+            by_name(image.variants)};
 }
 
 Model::iterator file_of(Model& model, const std::string& uri) {
@@ -51,9 +71,10 @@ class Machine {
     void step() {
         const int number = static_cast<int>(random_() % 40);
         const std::int64_t id = static_cast<std::int64_t>(random_() % (next_ + 2));
-        const NewImage image =
+        NewImage image =
             random_() % 2 == 0 ? file_picture(number) : upload_picture(number);
-        switch (random_() % 6) {
+        image.variants = some_variants(static_cast<unsigned>(random_() % 32));
+        switch (random_() % 8) {
             case 0:
                 add(image);
                 break;
@@ -68,6 +89,12 @@ class Machine {
                 break;
             case 4:
                 remove(id);
+                break;
+            case 5:
+                set_variant(id, {"v1", some_bytes(number % 4, 40)});
+                break;
+            case 6:
+                describe(id, image);
                 break;
             default:
                 EXPECT_EQ(store_.purge(ImageId{id}).has_value(), model_.erase(id) == 1);
@@ -125,6 +152,7 @@ class Machine {
             EXPECT_EQ(many[i].tags, all[i].tags);
         }
         compare_tag("tag1");
+        compare_variants();
     }
 
   private:
@@ -146,7 +174,33 @@ class Machine {
         row->second.state = ImageState::kIndexed;
         row->second.stamp = image.stamp;
         row->second.signature = image.signature;
+        row->second.variants = by_name(image.variants);
         row->second.failure.clear();
+        ++row->second.revision;
+    }
+
+    void set_variant(std::int64_t id, const SignatureVariant& variant) {
+        const auto row = model_.find(id);
+        const bool there =
+            row != model_.end() && row->second.state == ImageState::kIndexed;
+        ASSERT_EQ(store_.set_variant(ImageId{id}, variant).has_value(), there);
+        if (there) row->second.variants[variant.variant] = variant.signature;
+    }
+
+    void describe(std::int64_t id, const NewImage& image) {
+        const auto row = model_.find(id);
+        const bool there =
+            row != model_.end() && row->second.state != ImageState::kDeleted;
+        ImageDescription description;
+        description.tags = image.tags;
+        // A file's uri stays: asking for another one changes nothing at all.
+        if (random_() % 2 == 0) description.uri = image.uri;
+        const bool allowed =
+            there && !(description.uri && row->second.origin == ImageOrigin::kFile);
+        ASSERT_EQ(store_.describe(ImageId{id}, description).has_value(), allowed);
+        if (!allowed) return;
+        row->second.tags = {image.tags.begin(), image.tags.end()};
+        if (description.uri) row->second.uri = *description.uri;
         ++row->second.revision;
     }
 
@@ -165,6 +219,7 @@ class Machine {
             row->second.state = ImageState::kFailed;
             row->second.stamp = stamp;
             row->second.signature.clear();
+            row->second.variants.clear();
             row->second.failure = "broken";
             ++row->second.revision;
             return;
@@ -187,6 +242,7 @@ class Machine {
         }
         row->second.state = ImageState::kDeleted;
         row->second.signature.clear();
+        row->second.variants.clear();
         row->second.failure.clear();
         ++row->second.revision;
     }
@@ -227,6 +283,20 @@ class Machine {
             found.push_back(to_int(image.id));
         }
         EXPECT_EQ(found, want);
+    }
+
+    void compare_variants() {
+        std::map<std::string, std::int64_t> counts;
+        std::vector<ImageId> without;
+        for (const auto& [id, row] : model_) {
+            for (const auto& [name, signature] : row.variants) ++counts[name];
+            if (row.state == ImageState::kIndexed && !row.variants.contains("v2")) {
+                without.push_back(ImageId{id});
+            }
+        }
+        const auto counted = expect(store_.variant_counts());
+        EXPECT_EQ(std::map(counted.begin(), counted.end()), counts);
+        EXPECT_EQ(expect(store_.without_variant("v2", std::nullopt, 1000)), without);
     }
 
     ImageStore& store_;

@@ -4,13 +4,57 @@
 #include <sqlite3.h>
 
 #include "schema/database.h"
+#include "schema/duplicate_store.h"
+#include "schema/feedback_store.h"
 #include "schema/image_store.h"
+#include "schema/job_store.h"
+#include "schema/profile_store.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/schema/scratch_folder.h"
 
 namespace haarmony::schema {
 namespace {
+
+// What the tables of `version` and of those before hold beside the pictures.
+void add_newer_rows(sqlite3* database, int version) {
+    const std::pair<int, std::string> rows[] = {
+        {3, "INSERT INTO image_signatures VALUES (3, 'old-variant', x'0a0b')"},
+        {5,
+         "INSERT INTO profiles VALUES (7, 'old', 'yiq', 'standard', 40, 'min',"
+         " '[[1,2,3,4,5,6],[1,2,3,4,5,6],[1,2,3,4,5,6]]', NULL, NULL, '2020')"},
+        {6,
+         "INSERT INTO jobs VALUES (4, 't', '{}', 'queued', 0, 1, 2, 3, 4, 5, 6, 'here',"
+         " '{}', '2020', '', '')"},
+        {7, "INSERT INTO feedback VALUES (9, 'painted', 1, NULL, '{}', 1.5, '2020')"},
+        {8,
+         "INSERT INTO duplicate_generations VALUES (3, 1, '2020');"
+         "INSERT INTO duplicates VALUES (3, 1, 2, 'near', 0.5)"}};
+    for (const auto& [since, sql] : rows) {
+        if (version >= since) run_sql(database, sql);
+    }
+}
+
+// The rows of add_newer_rows() through the stores.
+void expect_newer_rows(Database& database, int version) {
+    ImageStore images(database);
+    EXPECT_EQ(images.signature(ImageId{3}, "old-variant").has_value(), version >= 3);
+    ProfileStore profiles(database);
+    EXPECT_EQ(profiles.get("old").has_value(), version >= 5);
+    JobStore jobs(database);
+    const auto job = expect(jobs.next_queued());
+    ASSERT_EQ(job.has_value(), version >= 6);
+    if (job) {
+        EXPECT_EQ(job->position, "here");
+        EXPECT_EQ(job->counts, (JobCounts{1, 2, 3, 4, 5}));
+    }
+    FeedbackStore feedback(database);
+    EXPECT_EQ(expect(feedback.count("painted")), version >= 7 ? 1 : 0);
+    DuplicateStore duplicates(database);
+    EXPECT_EQ(expect(duplicates.pairs(0)).size(), version >= 8 ? 1u : 0u);
+    // All three files of the fixture have one hash.
+    EXPECT_EQ(expect(duplicates.same_content()).size(), 1u);
+}
 
 // A database as version `version` left it, with pictures written by that version's SQL:
 // ids 1 to 5, of which 4 failed and 5 is deleted.
@@ -36,6 +80,7 @@ void make_fixture(const std::string& path, int version) {
         run_sql(database, "INSERT INTO image_tags VALUES (" + n + ", 'old')");
     }
     run_sql(database, "INSERT INTO thumbnails VALUES (1, 'image/webp', x'ff')");
+    add_newer_rows(database, version);
 }
 
 std::string schema_text(sqlite3* database) {
@@ -73,6 +118,13 @@ TEST(Migrate, EveryOlderVersionReachesTheSchemaOfANewDatabaseAndKeepsItsRows) {
             if (!change.signature.empty()) searchable.push_back(change.id);
         }
         EXPECT_EQ(searchable, (std::vector{ImageId{1}, ImageId{2}, ImageId{3}}));
+        // Words of before are found, and of pictures that can be searched alone.
+        EXPECT_EQ(expect(store.matching({.text = "old", .tags = {"old"}})), searchable);
+        EXPECT_EQ(expect(store.matching({.text = "\"old 2\"", .tags = {}})),
+                  std::vector{ImageId{2}});
+        run_sql(database.handle(),
+                "INSERT INTO image_text (image_text) VALUES ('integrity-check')");
+        expect_newer_rows(database, version);
         EXPECT_GT(to_int(expect(store.add(file_picture(1)))), 5);
     }
 }

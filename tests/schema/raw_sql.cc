@@ -2,9 +2,11 @@
 
 #include <sqlite3.h>
 
+#include <fstream>
 #include <stdexcept>
 
 #include "schema/uri_words.h"
+#include "tests/schema/pictures.h"
 
 namespace haarmony::schema {
 namespace {
@@ -40,6 +42,22 @@ std::string sql_text(sqlite3* database, const std::string& sql) {
     const Prepared row = first_row(database, sql);
     const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row.get(), 0));
     return text == nullptr ? std::string() : std::string(text);
+}
+
+void break_page(const std::string& path, const std::string& object) {
+    std::int64_t page = 0;
+    std::int64_t page_size = 0;
+    {
+        const RawConnection connection(path);
+        page = sql_integer(
+            connection.handle(),
+            "SELECT rootpage FROM sqlite_schema WHERE name = '" + object + "'");
+        page_size = sql_integer(connection.handle(), "PRAGMA page_size");
+    }
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp((page - 1) * page_size);
+    const auto noise = some_bytes(5, static_cast<std::size_t>(page_size));
+    for (const std::uint8_t byte : noise) file.put(static_cast<char>(byte | 0x80));
 }
 
 void RawConnection::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }

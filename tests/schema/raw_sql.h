@@ -14,6 +14,10 @@ void run_sql(sqlite3* database, const std::string& sql);
 [[nodiscard]] std::int64_t sql_integer(sqlite3* database, const std::string& sql);
 [[nodiscard]] std::string sql_text(sqlite3* database, const std::string& sql);
 
+// Overwrites the first page of a table or an index with bytes that are no page. Requires:
+// nothing has the file open, and its log is empty.
+void break_page(const std::string& path, const std::string& object);
+
 // A connection with SQLite's own defaults, no busy timeout, and the one SQL function that
 // the triggers need.
 class RawConnection {

@@ -5,6 +5,8 @@
 //   transaction     opens, commits one batch, adds another without committing, waits
 //   migrate N       applies migration N up to its version number, writes what is dirty to
 //                   the file, and waits inside the transaction
+//   stores          opens, then writes rounds of a job, feedback and a generation of
+//                   duplicates, a line after each
 //   exclusive       tries to take the file for itself; prints "free" or "in use"
 #include <sqlite3.h>
 
@@ -12,6 +14,9 @@
 #include <iostream>
 #include <string>
 
+#include "schema/duplicate_store.h"
+#include "schema/feedback_store.h"
+#include "schema/job_store.h"
 #include "schema/migrate.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
@@ -81,6 +86,40 @@ void stay_in_migration(const std::string& path, int version) {
     wait_for_line();
 }
 
+// In round n: job n gets as far as n with n errors at most, and generation n has the pairs
+// of pictures 1 and 2 and of 3 and 4, each of similarity n.
+void write_rounds(const std::string& path) {
+    Database database = open_database(path);
+    ImageStore images(database);
+    expect(images.transaction([&] { return add_batch(images, 0); }));
+    JobStore jobs(database);
+    FeedbackStore feedback(database);
+    DuplicateStore duplicates(database);
+    for (int round = 1;; ++round) {
+        const std::vector<std::string> errors(3, std::to_string(round));
+        const auto job = expect(jobs.create("round", "{}")).id;
+        expect(jobs.start(job));
+        expect(jobs.progress(
+            job, {.seen = round, .added = round}, round, std::to_string(round), errors));
+        NewFeedback drawn;
+        drawn.kind = "painted";
+        drawn.target = ImageId{1};
+        drawn.strokes = "{}";
+        expect(feedback.add(drawn));
+        const auto generation = expect(duplicates.begin_generation());
+        for (const int first : {1, 3}) {
+            expect(
+                duplicates.add(generation,
+                               std::vector<DuplicatePair>{{ImageId{first},
+                                                           ImageId{first + 1},
+                                                           "near",
+                                                           static_cast<double>(round)}}));
+        }
+        expect(duplicates.publish(generation));
+        say(std::to_string(round));
+    }
+}
+
 void take_for_itself(const std::string& path) {
     const RawConnection connection(path);
     // Leaving the write-ahead log takes a lock that no other connection may share.
@@ -101,6 +140,8 @@ int run(int count, char** arguments) {
         stay_in_transaction(path);
     } else if (command == "migrate" && count == 4) {
         stay_in_migration(path, std::stoi(arguments[3]));
+    } else if (command == "stores") {
+        write_rounds(path);
     } else if (command == "exclusive") {
         take_for_itself(path);
     } else {
