@@ -64,9 +64,12 @@ std::vector<Cluster> cluster(const Records& records,
                                     .nearest(queries, executor);
         for (std::size_t i = 0; i < part.size(); ++i) {
             clusters[nearest.center[i]].members.push_back(
-                {part[i]->id, static_cast<double>(nearest.distance[i]) / kSymmetricUnit});
+                {part[i]->id,
+                 static_cast<double>(nearest.distance[i]) / double{kAverageOne}});
         }
     }
+    // A medoid that is not told apart from an earlier one has no members of its own.
+    std::erase_if(clusters, [](const Cluster& each) { return each.members.empty(); });
     for (Cluster& each : clusters) {
         std::ranges::sort(each.members, {}, [](const ClusterMember& member) {
             return std::pair(member.distance, member.id);

@@ -5,7 +5,8 @@
 // Pictures with next to no information resemble everything a little and each other too
 // much; they make one cluster of their own, beside the ones that were asked for.
 //
-// Units   distances are the mean of both directions, in the unit of the weights.
+// Units   distances are the mean of both directions as a part of the weights: 0 for alike,
+//         1 for nothing in common (relative_distance() in symmetric_metric.h).
 // Errors  none; a wrong shape is a caller's bug and asserts.
 // Threads as medoids.h.
 // Source  ours: a collection without a query.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <memory>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -23,14 +23,11 @@ constexpr int kSeedTrials = 4;
 // present one, half drawn from the others.
 constexpr std::size_t kCandidates = 64;
 
-std::int64_t coarse(std::int64_t distance) { return distance >> kCostShift; }
+static_assert(kMaxRelativeDistance <
+              std::numeric_limits<std::int64_t>::max() / kMaxSlots);
 
-std::int64_t sum_of_costs(std::span<const std::int64_t> distances) {
-    return std::accumulate(
-        distances.begin(),
-        distances.end(),
-        std::int64_t{0},
-        [](std::int64_t sum, std::int64_t distance) { return sum + coarse(distance); });
+std::int64_t sum_of(std::span<const std::int64_t> distances) {
+    return std::accumulate(distances.begin(), distances.end(), std::int64_t{0});
 }
 
 class MedoidSearch {
@@ -50,7 +47,7 @@ class MedoidSearch {
     [[nodiscard]] std::vector<std::size_t> seeds(int count) {
         std::vector<std::size_t> chosen;
         std::vector<std::int64_t> left(pictures_.size(), kUnseeded);
-        while (chosen.size() < std::size_t(count) && sum_of_costs(left) > 0) {
+        while (chosen.size() < std::size_t(count) && sum_of(left) > 0) {
             std::optional<std::size_t> best;
             std::int64_t best_cost = 0;
             std::vector<std::int64_t> best_left;
@@ -60,7 +57,7 @@ class MedoidSearch {
                 for (std::size_t i = 0; i < after.size(); ++i) {
                     after[i] = std::min(after[i], left[i]);
                 }
-                const std::int64_t cost = sum_of_costs(after);
+                const std::int64_t cost = sum_of(after);
                 if (!best || cost < best_cost || (cost == best_cost && drawn < *best)) {
                     best = drawn;
                     best_cost = cost;
@@ -88,8 +85,11 @@ class MedoidSearch {
         for (std::size_t i = 0; i < pictures_.size(); ++i) {
             members[nearest.center[i]].push_back(i);
         }
-        std::vector<std::size_t> medoids(clusters);
-        executor_.parallel_for(clusters, [&](std::size_t cluster) {
+        // Pictures that differ by less than the distance can tell may both have become
+        // medoids; the later one is left with nothing.
+        std::erase_if(members, [](const auto& each) { return each.empty(); });
+        std::vector<std::size_t> medoids(members.size());
+        executor_.parallel_for(members.size(), [&](std::size_t cluster) {
             // A generator for each, so that no cluster depends on what others have drawn.
             std::seed_seq numbers{static_cast<std::uint32_t>(seed_),
                                   static_cast<std::uint32_t>(seed_ >> 32),
@@ -106,18 +106,18 @@ class MedoidSearch {
     }
 
   private:
-    // Further than any distance, all alike for the first seed, and little enough to add up.
-    static constexpr std::int64_t kUnseeded = std::int64_t{1} << 58;
+    // The first seed is drawn from all alike, and leaves every distance as it is.
+    static constexpr std::int64_t kUnseeded = kMaxRelativeDistance;
 
     [[nodiscard]] Query query(std::size_t i) const {
         return make_query(pictures_[i], profile_, profile_.m);
     }
 
     [[nodiscard]] std::size_t draw(const std::vector<std::int64_t>& left) {
-        const auto total = static_cast<std::uint64_t>(sum_of_costs(left));
+        const auto total = static_cast<std::uint64_t>(sum_of(left));
         auto rest = static_cast<std::int64_t>(random_below(random_, total));
         std::size_t i = 0;
-        while (rest >= coarse(left[i])) rest -= coarse(left[i++]);
+        while (rest >= left[i]) rest -= left[i++];
         return i;
     }
 
@@ -136,8 +136,8 @@ class MedoidSearch {
         std::vector<std::int64_t> distances(members.size());
         std::pair<std::int64_t, std::size_t> best{-1, 0};
         for (const std::size_t candidate : candidates) {
-            block.symmetric_distances(query(candidate), distances);
-            const std::pair tried(sum_of_costs(distances), candidate);
+            block.relative_distances(query(candidate), distances);
+            const std::pair tried(sum_of(distances), candidate);
             if (best.first < 0 || tried < best) best = tried;
         }
         return best.second;
@@ -152,7 +152,7 @@ class MedoidSearch {
 
 }  // namespace
 
-std::int64_t Nearest::cost() const { return sum_of_costs(distance); }
+std::int64_t Nearest::cost() const { return sum_of(distance); }
 
 SignatureBlocks::SignatureBlocks(std::vector<const Signature*> signatures,
                                  const Profile& profile,
@@ -179,10 +179,10 @@ Nearest SignatureBlocks::nearest(std::span<const Query> centers,
         const auto size = std::size_t(block.size());
         const auto best = std::span(nearest.distance).subspan(b * kBlockSize, size);
         const auto center = std::span(nearest.center).subspan(b * kBlockSize, size);
-        block.symmetric_distances(centers[0], best);
+        block.relative_distances(centers[0], best);
         std::vector<std::int64_t> distances(size);
         for (std::size_t c = 1; c < centers.size(); ++c) {
-            block.symmetric_distances(centers[c], distances);
+            block.relative_distances(centers[c], distances);
             for (std::size_t i = 0; i < size; ++i) {
                 if (distances[i] >= best[i]) continue;
                 best[i] = distances[i];

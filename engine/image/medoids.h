@@ -1,9 +1,8 @@
-// Pictures that stand for others: k-medoids on the symmetric metric:
+// Pictures that stand for others: k-medoids on the symmetric metric, relative to its weights:
 //   symmetric_metric.h -> [medoids.h] -> clusters.h
 //
-// Scale   distances are those of symmetric_metric.h; a cost is a sum of them without their
-//         last kCostShift bits, so that the sum of kMaxSlots of the largest fits 64 bits. Both are
-//         exact: nothing depends on the order of addition.
+// Scale   relative distances of symmetric_metric.h, exact integers; a cost is their sum:
+//         nothing depends on the order of addition.
 // Errors  none; a wrong shape is a caller's bug and asserts.
 // Threads const-thread-safe; parallel work goes to the Executor, with the same result
 //         whatever it does first.
@@ -22,8 +21,6 @@
 #include "engine/image/symmetric_metric.h"
 
 namespace haarmony::image {
-
-inline constexpr int kCostShift = 12;
 
 // Of every picture: which center is nearest, and its distance. Ties: the earlier center.
 struct Nearest {

@@ -35,6 +35,11 @@ std::int64_t symmetric(Score score, std::int64_t weights_a, std::int64_t weights
     return 2 * score + (weights_a + weights_b) * kAverageOne;
 }
 
+std::int64_t relative(std::int64_t distance, std::int64_t weights) {
+    if (weights == 0) return distance == 0 ? 0 : kMaxRelativeDistance;
+    return std::min(distance / weights, kMaxRelativeDistance);
+}
+
 }  // namespace
 
 std::int64_t symmetric_distance(const Signature& a,
@@ -43,6 +48,16 @@ std::int64_t symmetric_distance(const Signature& a,
                                 int m) {
     const BothWays both = compare(a, b, profile, m);
     return symmetric(both.score, both.from_a.weight_sum, both.from_b.weight_sum);
+}
+
+std::int64_t relative_distance(const Signature& a,
+                               const Signature& b,
+                               const Profile& profile,
+                               int m) {
+    const BothWays both = compare(a, b, profile, m);
+    const std::int64_t weights_a = both.from_a.weight_sum;
+    const std::int64_t weights_b = both.from_b.weight_sum;
+    return relative(symmetric(both.score, weights_a, weights_b), weights_a + weights_b);
 }
 
 double mutual_similarity(const Signature& a,
@@ -89,6 +104,15 @@ void SignatureBlock::symmetric_distances(const Query& query,
     for (std::size_t slot = 0; slot < distances.size(); ++slot) {
         distances[slot] =
             symmetric(distances[slot], query.weight_sum, weight_sums_[slot]);
+    }
+}
+
+void SignatureBlock::relative_distances(const Query& query,
+                                        std::span<std::int64_t> distances) const {
+    symmetric_distances(query, distances);
+    for (std::size_t slot = 0; slot < distances.size(); ++slot) {
+        distances[slot] =
+            relative(distances[slot], query.weight_sum + weight_sums_[slot]);
     }
 }
 

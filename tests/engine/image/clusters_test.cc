@@ -13,8 +13,6 @@
 namespace haarmony::image {
 namespace {
 
-constexpr double kUnit = 100.0 * (1 << 24);
-
 Profile small_profile() {
     Profile profile = *built_in_profile("painted");
     profile.m = 20;
@@ -50,12 +48,20 @@ void expect_sound(const Clustering& clustering, const std::vector<Record>& recor
     std::map<ImageId, const Signature*> signatures;
     for (const Record& record : records) signatures[record.id] = &record.signature;
     const Profile profile = small_profile();
+    const auto weights_of = [&](const Signature& signature) {
+        Signature nothing;
+        for (int c = 0; c < kChannels; ++c) {
+            nothing.channels[c].average = signature.channels[c].average;
+        }
+        return metric(signature, nothing, profile, profile.m) / (1 << 24);
+    };
     const auto distance = [&](ImageId a, ImageId b) {
         const Signature& one = *signatures.at(a);
         const Signature& other = *signatures.at(b);
-        return static_cast<double>(metric(one, other, profile, profile.m) +
-                                   metric(other, one, profile, profile.m)) /
-               2 / kUnit;
+        const std::int64_t both = metric(one, other, profile, profile.m) +
+                                  metric(other, one, profile, profile.m);
+        const std::int64_t weights = weights_of(one) + weights_of(other);
+        return static_cast<double>(both / weights) / (1 << 24);
     };
     std::map<ImageId, int> seen;
     double cost = 0;

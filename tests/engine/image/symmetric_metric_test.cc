@@ -47,6 +47,63 @@ TEST(SymmetricMetric, IsZeroFromAPictureToItself) {
     }
 }
 
+// The weights of all coefficients of a picture: its distance to one without any.
+std::int64_t weights_of(const Signature& signature, const Profile& profile) {
+    Signature nothing;
+    for (int c = 0; c < kChannels; ++c) {
+        nothing.channels[c].average = signature.channels[c].average;
+    }
+    return metric(signature, nothing, profile, profile.m) / kAverageOne;
+}
+
+TEST(SymmetricMetric, RelativeIsAPartOfTheWeightsOfBoth) {
+    const std::vector<Signature> signatures = random_signatures(86, 20);
+    const Profile profile = *built_in_profile("painted");
+    const SignatureBlock block(pointers(signatures), profile);
+    std::vector<std::int64_t> distances(signatures.size());
+    for (const Signature& a : signatures) {
+        block.relative_distances(make_query(a, profile, profile.m), distances);
+        for (std::size_t i = 0; i < signatures.size(); ++i) {
+            const Signature& b = signatures[i];
+            const std::int64_t both =
+                metric(a, b, profile, profile.m) + metric(b, a, profile, profile.m);
+            const std::int64_t expected =
+                both / (weights_of(a, profile) + weights_of(b, profile));
+            EXPECT_EQ(relative_distance(a, b, profile, profile.m), expected);
+            EXPECT_EQ(distances[i], expected);
+        }
+    }
+}
+
+TEST(SymmetricMetric, RelativeOfNothingInCommonIsOne) {
+    Signature a;
+    a.channels[0].count = 2;
+    a.channels[0].indices = {1, 2};
+    Signature b;
+    b.channels[1].count = 1;
+    b.channels[1].indices = {-1};
+    const Profile profile = *built_in_profile("painted");
+    EXPECT_EQ(relative_distance(a, b, profile, 60), kAverageOne);
+    EXPECT_EQ(relative_distance(a, a, profile, 60), 0);
+}
+
+TEST(SymmetricMetric, RelativeWithoutCoefficientsIsAllOrNothing) {
+    const Profile profile = *built_in_profile("painted");
+    Signature flat;
+    Signature other;
+    other.channels[2].average = 1;
+    EXPECT_EQ(relative_distance(flat, flat, profile, 60), 0);
+    EXPECT_EQ(relative_distance(flat, other, profile, 60), kMaxRelativeDistance);
+    // Hardly any weight and a large difference of averages: no larger.
+    Profile top_heavy;
+    top_heavy.weights[0] = {kMaxWeight, 1, 0, 0, 0, 0};
+    flat.channels[0].average = kAverageOne;
+    flat.channels[0].count = 1;
+    flat.channels[0].indices = {1};
+    other.channels[0].average = -kAverageOne;
+    EXPECT_EQ(relative_distance(flat, other, top_heavy, 60), kMaxRelativeDistance);
+}
+
 TEST(SymmetricMetric, AnOddSumIsKept) {
     Signature a;
     a.channels[0].count = 1;
