@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <vector>
+
+#include "engine/image/mask.h"
 
 namespace haarmony::image {
 namespace {
@@ -135,43 +138,48 @@ void fill_from_rgb(const ImageView& picture, ColorPlanes& rgb) {
     }
 }
 
-void fill_from_rgba(const ImageView& picture, ColorPlanes& rgb) {
+// Colours are means of what is painted, weighed by alpha.
+std::unique_ptr<Plane> fill_from_rgba(const ImageView& picture, ColorPlanes& rgb) {
     const std::vector<std::int64_t> cells = sum_all_cells<4>(picture);
-    std::array<std::int64_t, 4> total{};  // at most 255^2 * 65535^2 * 2^14 < 2^63
-    for (std::size_t i = 0; i < cells.size(); ++i) total[i % 4] += cells[i];
+    std::int64_t most_opaque = 0;
+    bool equally_opaque = true;
+    for (std::size_t i = 3; i < cells.size(); i += 4) {
+        most_opaque = std::max(most_opaque, cells[i]);
+        equally_opaque = equally_opaque && cells[i] == cells[3];
+    }
+    auto cover = std::make_unique<Plane>();
+    for (Plane& plane : rgb) plane.fill(0.0F);
+    if (most_opaque == 0) return cover;
 
-    // Quotient and remainder apart: the mean of one colour is that colour exactly.
-    std::array<double, 3> mean{};
-    if (total[3] > 0) {
-        for (int c = 0; c < 3; ++c) {
-            mean[c] =
-                static_cast<double>(total[c] / total[3]) +
-                static_cast<double>(total[c] % total[3]) / static_cast<double>(total[3]);
-        }
-    }
-    const double opaque = full_scale(picture);
-    const double scale = 255.0 * opaque;
     for (int i = 0; i < kCoefficientCount; ++i) {
-        const double unpainted = opaque - static_cast<double>(cells[4 * i + 3]);
+        const double alpha = static_cast<double>(cells[4 * i + 3]);
+        (*cover)[i] = static_cast<float>(alpha / static_cast<double>(most_opaque));
+        if (alpha == 0) continue;
         for (int c = 0; c < 3; ++c) {
-            const double painted = static_cast<double>(cells[4 * i + c]);
-            rgb[c][i] = static_cast<float>((painted + unpainted * mean[c]) / scale);
+            // Both are integers below 2^53: one rounding, that of the division.
+            rgb[c][i] = static_cast<float>(static_cast<double>(cells[4 * i + c]) /
+                                           (255.0 * alpha));
         }
     }
+    if (equally_opaque) return nullptr;
+    extend_painted(*cover, rgb);
+    return cover;
 }
 
 }  // namespace
 
-void area_average(const ImageView& picture, ColorPlanes& rgb) {
+std::unique_ptr<Plane> area_average(const ImageView& picture, ColorPlanes& rgb) {
     assert(picture.pixels != nullptr);
     assert(picture.width >= 1 && picture.width <= kMaxPictureSide);
     assert(picture.height >= 1 && picture.height <= kMaxPictureSide);
     assert(picture.channels == 1 || picture.channels == 3 || picture.channels == 4);
     switch (picture.channels) {
         case 1:
-            return fill_from_grey(picture, rgb);
+            fill_from_grey(picture, rgb);
+            return nullptr;
         case 3:
-            return fill_from_rgb(picture, rgb);
+            fill_from_rgb(picture, rgb);
+            return nullptr;
         default:
             return fill_from_rgba(picture, rgb);
     }

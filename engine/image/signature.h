@@ -53,8 +53,8 @@ struct Signature {
 };
 
 // The signature of a picture of any size: area average to 128 x 128, the colour space of the
-// kind, Haar, truncation. What is transparent is filled with the mean colour of what is
-// painted; a picture with nothing painted counts as black.
+// kind, Haar, truncation. What is transparent does not count, see mask.h; a picture with
+// nothing painted counts as black.
 // Requires: width, height >= 1. Cost: one pass over the pixels.
 [[nodiscard]] Signature make_signature(const ImageView& picture,
                                        const SignatureKind& kind);

@@ -11,6 +11,9 @@
 
 #include "engine/image/color_space.h"
 #include "engine/image/haar.h"
+#include "engine/image/mask.h"
+#include "engine/image/metric.h"
+#include "engine/image/profile.h"
 #include "engine/image/resample.h"
 #include "engine/image/truncation.h"
 #include "tests/engine/image/all_kinds.h"
@@ -172,6 +175,76 @@ TEST(Signature, OfAKindIsItsSpaceItsDecompositionAndTruncation) {
                 << kind_name(kind) << " channel " << c;
         }
     }
+}
+
+// Painted left of `edge`, shaded over `shade` columns, with anything at all beyond.
+Pixels painted_left(const Pixels& rgb, int edge, int shade, unsigned seed) {
+    Pixels picture = noise(rgb.width, rgb.height, 4, seed);
+    for (int y = 0; y < rgb.height; ++y) {
+        for (int x = 0; x < rgb.width; ++x) {
+            const int alpha = std::clamp((edge - x) * 255 / shade, 0, 255);
+            picture.at(x, y, 3) = static_cast<std::uint8_t>(alpha);
+            for (int c = 0; c < 3 && alpha > 0; ++c)
+                picture.at(x, y, c) = rgb.at(x, y, c);
+        }
+    }
+    return picture;
+}
+
+// The steps of mask.h, one after the other.
+TEST(Signature, OfWhatIsPaintedInPartKeepsTheFewBestSupportedCoefficients) {
+    const Pixels picture = painted_left(scene(200, 150, 50), 120, 9, 51);
+    for (const SignatureKind& kind : all_kinds()) {
+        const Signature signature = make_signature(picture.view(), kind);
+        const auto planes = std::make_unique<ColorPlanes>();
+        const auto cover = area_average(picture.view(), *planes);
+        ASSERT_NE(cover, nullptr);
+        convert(kind.color_space, *planes);
+        for (int c = 0; c < kChannels; ++c) {
+            decompose((*planes)[c], kSide, kind.decomposition);
+            weigh_by_cover(*cover, kind.decomposition, (*planes)[c]);
+            const ChannelSignature all = truncate((*planes)[c]);
+            const ChannelSignature& kept = signature.channels[c];
+            EXPECT_EQ(kept.average, all.average) << kind_name(kind);
+            EXPECT_TRUE(std::ranges::equal(kept.largest(kMaxCoefficients),
+                                           all.largest(kept_coefficients(*cover))))
+                << kind_name(kind);
+        }
+    }
+}
+
+TEST(Signature, DoesNotSeeWhatIsTransparent) {
+    const Pixels rgb = scene(200, 150, 52);
+    EXPECT_EQ(make_signature(painted_left(rgb, 90, 1, 53).view()),
+              make_signature(painted_left(rgb, 90, 1, 54).view()));
+}
+
+TEST(Signature, OfAnOpaquePictureIsThatWithoutAlpha) {
+    const Pixels rgb = scene(200, 150, 55);
+    const Pixels opaque = painted_left(rgb, 2 * rgb.width, 1, 56);
+    for (const SignatureKind& kind : all_kinds()) {
+        EXPECT_EQ(make_signature(opaque.view(), kind), make_signature(rgb.view(), kind));
+    }
+}
+
+// The scenes are alike: all have the same ramps. One of 40 may be mistaken for another.
+TEST(Signature, OfHalfAPictureIsNearestToThatPicture) {
+    const Profile profile = *built_in_profile("painted");
+    std::vector<Signature> whole;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        whole.push_back(make_signature(scene(128, 128, 100 + seed).view()));
+    }
+    int found = 0;
+    for (unsigned seed = 0; seed < whole.size(); ++seed) {
+        const Signature half =
+            make_signature(painted_left(scene(128, 128, 100 + seed), 64, 1, seed).view());
+        std::vector<std::int64_t> distances;
+        for (const Signature& target : whole) {
+            distances.push_back(metric(half, target, profile, profile.m));
+        }
+        found += std::ranges::min_element(distances) - distances.begin() == seed ? 1 : 0;
+    }
+    EXPECT_GE(found, 39);
 }
 
 TEST(Signature, IsYiqStandardUnlessAKindIsAskedFor) {
