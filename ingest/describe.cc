@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cassert>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "engine/image/autocrop.h"
 #include "engine/image/signature_codec.h"
 #include "ingest/thumbnail.h"
 #include "ingest/variant.h"
@@ -24,6 +26,16 @@ void append_named(std::span<const image::Signature> signatures,
     }
 }
 
+// A second look at a picture that has borders.
+void append_content(const ImageView& picture,
+                    std::span<const image::SignatureKind> kinds,
+                    std::vector<schema::SignatureVariant>& variants) {
+    const std::optional<image::CropBox> box = image::content_box(picture);
+    if (!box) return;
+    const ImageView content = image::cropped(picture, *box);
+    append_named(image::make_signatures(content, kinds), Look::kContent, variants);
+}
+
 }  // namespace
 
 std::vector<schema::SignatureVariant> signature_variants(
@@ -31,6 +43,7 @@ std::vector<schema::SignatureVariant> signature_variants(
     std::span<const image::SignatureKind> kinds) {
     std::vector<schema::SignatureVariant> variants;
     append_named(image::make_signatures(picture, kinds), Look::kWhole, variants);
+    append_content(picture, kinds, variants);
     return variants;
 }
 
@@ -54,6 +67,7 @@ Result<schema::NewImage> describe(Decoder& decoder,
     image.signature = image::encode_signature(signatures.front());
     image.low_information = signatures.front().low_information;
     append_named(std::span(signatures).subspan(1), Look::kWhole, image.variants);
+    append_content(picture->view(), kinds, image.variants);
     image.thumbnail = {"image/jpeg", std::move(thumbnail).value()};
     return image;
 }

@@ -26,13 +26,21 @@ using Clock = std::chrono::steady_clock;
 Outcome<QueryPicture> picture_of(const Context& context,
                                  const QuerySource& source,
                                  const LookOptions& look) {
+    if (look.partial && (std::holds_alternative<ImageId>(source) ||
+                         std::holds_alternative<image::Signature>(source)))
+        return http::Problem{400,
+                             "invalid_argument",
+                             "partial=true needs the picture itself: an id and a "
+                             "signature have no pixels",
+                             "partial",
+                             {}};
     PictureReader& pictures = context.images.pictures();
     if (const auto* bytes = std::get_if<SourceBytes>(&source))
         return pictures.look(view_of(*bytes), look);
     if (const auto* id = std::get_if<ImageId>(&source))
         return context.images.stored_picture(*id, look.kinds, look.autocrop);
     if (const auto* signature = std::get_if<image::Signature>(&source))
-        return QueryPicture{{{signature->kind, *signature}}, {}};
+        return QueryPicture{{{signature->kind, {*signature}}}, {}};
     if (const auto* url = std::get_if<SourceUrl>(&source)) {
         const auto bytes = fetch_picture(context, *url);
         if (!bytes) return bytes.error();

@@ -145,6 +145,7 @@ QueryOptions read_query_options(const Context& context, Inputs& inputs) {
     if (inputs.one_of("mask", kMasks) == "none") options.look.mask = Mask::kNone;
     options.look.autocrop = inputs.boolean("autocrop").value_or(false);
     plan.content = options.look.autocrop;
+    options.look.partial = inputs.boolean("partial").value_or(false);
     options.search.filter = read_filter(inputs);
     options.explain = inputs.boolean("explain").value_or(false);
     options.seq = read_seq(inputs);

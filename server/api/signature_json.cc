@@ -80,8 +80,8 @@ Result<image::Signature> parse_signature(const json& value) {
         } else if (name == "coefficients") {
             coefficients = member;
         } else if (name == "kind") {
-            const auto known =
-                image::kind_from_name(member.is_string() ? member.get<std::string>() : "");
+            const auto known = image::kind_from_name(
+                member.is_string() ? member.get<std::string>() : "");
             if (!known)
                 return refused("kind " + member.dump().substr(0, 40) + " is not known");
             kind = *known;

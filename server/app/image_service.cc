@@ -116,6 +116,10 @@ Result<QueryPicture> ImageService::stored_picture(
     bool content) {
     const Result<schema::Image> row = get(id);
     if (!row) return row.error();
+    if (row->state != schema::ImageState::kIndexed)
+        return Error{ErrorCode::kNotFound,
+                     "image " + std::to_string(to_int(id)) + " has no signature",
+                     "id"};
     QueryPicture picture;
     picture.log_aspect =
         image::log_aspect(std::max(1, row->width), std::max(1, row->height));
@@ -124,7 +128,7 @@ Result<QueryPicture> ImageService::stored_picture(
         if (content) found = signature(id, variant_name(kind, ingest::Look::kContent));
         if (!found) found = signature(id, variant_name(kind, ingest::Look::kWhole));
         if (found) {
-            picture.signatures.emplace(kind, std::move(found).value());
+            picture.signatures[kind] = {std::move(found).value()};
         } else if (found.error().code != ErrorCode::kNotFound) {
             return std::move(found).error();
         }

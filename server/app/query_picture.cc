@@ -1,8 +1,11 @@
 #include "server/app/query_picture.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/image/aspect.h"
+#include "engine/image/autocrop.h"
+#include "engine/image/window.h"
 
 namespace haarmony::server {
 namespace {
@@ -20,15 +23,47 @@ std::vector<std::uint8_t> over_black(const ImageView& picture) {
     return pixels;
 }
 
+void add_windows(const ImageView& pixels,
+                 const LookOptions& options,
+                 QueryPicture& picture) {
+    for (const image::SignatureKind& kind : options.kinds) {
+        std::vector<image::Signature>& windows = picture.signatures[kind];
+        for (image::WindowSignature& window : image::window_signatures(pixels, kind))
+            windows.push_back(std::move(window.signature));
+    }
+}
+
+void add_whole(const ImageView& pixels,
+               const LookOptions& options,
+               QueryPicture& picture) {
+    for (image::Signature& signature : image::make_signatures(pixels, options.kinds)) {
+        const image::SignatureKind kind = signature.kind;
+        picture.signatures[kind].push_back(std::move(signature));
+    }
+}
+
+// `pixels_across` of `pixels_of` stand for how many of `length`, at least one.
+int share_of(int length, int pixels_across, int pixels_of) {
+    return static_cast<int>(std::max<std::int64_t>(
+        1, (std::int64_t{length} * pixels_across + pixels_of / 2) / pixels_of));
+}
+
 QueryPicture look_at_masked(const ImageView& pixels,
                             int width,
                             int height,
                             const LookOptions& options) {
+    ImageView seen = pixels;
+    if (options.autocrop) {
+        if (const auto box = image::content_box(pixels))
+            seen = image::cropped(pixels, *box);
+    }
     QueryPicture picture;
-    picture.log_aspect = image::log_aspect(width, height);
-    for (image::Signature& signature : image::make_signatures(pixels, options.kinds)) {
-        const image::SignatureKind kind = signature.kind;
-        picture.signatures.emplace(kind, std::move(signature));
+    picture.log_aspect = image::log_aspect(share_of(width, seen.width, pixels.width),
+                                           share_of(height, seen.height, pixels.height));
+    if (options.partial) {
+        add_windows(seen, options, picture);
+    } else {
+        add_whole(seen, options, picture);
     }
     return picture;
 }

@@ -24,10 +24,13 @@ struct LookOptions {
     std::vector<image::SignatureKind> kinds = {{}};  // each once
     Mask mask = Mask::kAlpha;
     bool autocrop = false;  // without near-uniform borders
+    bool partial = false;   // as a part of something larger (engine/image/window.h)
 };
 
 struct QueryPicture {
-    std::map<image::SignatureKind, image::Signature> signatures;
+    // Of each kind one signature, or one for each window that the picture is placed at, the
+    // whole canvas first.
+    std::map<image::SignatureKind, std::vector<image::Signature>> signatures;
     std::optional<std::int32_t> log_aspect;  // unknown where only signatures are known
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/image/window.h"
 #include "ingest/variant.h"
 
 namespace haarmony::server {
@@ -25,8 +26,9 @@ std::span<const Symmetry> symmetries_of(Orientations orientations) {
     return all;
 }
 
-// All ways to ask for the picture under one profile.
-std::vector<PlannedWay> ways_of(const image::Signature& signature,
+// All ways to ask for the picture under one profile. Windows have different numbers of
+// coefficients; their weights are made to add up to those of the first.
+std::vector<PlannedWay> ways_of(std::span<const image::Signature> windows,
                                 const QueryPicture& picture,
                                 const PlanOptions& options,
                                 const image::Profile& profile,
@@ -40,18 +42,23 @@ std::vector<PlannedWay> ways_of(const image::Signature& signature,
 
     std::vector<PlannedWay> ways;
     for (const Symmetry symmetry : symmetries_of(options.orientations)) {
-        PlannedWay way;
-        way.symmetry = symmetry;
-        way.signature = image::transformed(signature, symmetry);
-        way.query = image::make_query(way.signature, profile, m);
-        if (options.aspect_weight > 0) {
-            const std::int32_t upright = *picture.log_aspect;
-            way.query.log_aspect = image::swaps_sides(symmetry) ? -upright : upright;
-            way.query.aspect_weight = options.aspect_weight;
-        }
-        for (const std::string& variant : variants) {
-            way.variant = variant;
-            ways.push_back(way);
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            PlannedWay way;
+            way.symmetry = symmetry;
+            way.signature = image::transformed(windows[i], symmetry);
+            way.query = image::make_query(way.signature, profile, m);
+            if (i > 0)
+                way.query =
+                    image::with_weight_sum(way.query, ways.front().query.weight_sum);
+            if (options.aspect_weight > 0) {
+                const std::int32_t upright = *picture.log_aspect;
+                way.query.log_aspect = image::swaps_sides(symmetry) ? -upright : upright;
+                way.query.aspect_weight = options.aspect_weight;
+            }
+            for (const std::string& variant : variants) {
+                way.variant = variant;
+                ways.push_back(way);
+            }
         }
     }
     return ways;
@@ -80,15 +87,15 @@ Result<SearchPlan> SearchPlan::make(const QueryPicture& picture,
                              " that the profile '" + profile.name +
                              "' compares: a job of the type 'reindex' makes them",
                          "profile"};
-        const auto signature = picture.signatures.find(profile.kind);
-        if (signature == picture.signatures.end())
+        const auto windows = picture.signatures.find(profile.kind);
+        if (windows == picture.signatures.end())
             return Error{ErrorCode::kInvalidArgument,
                          "the query has no signature of the kind " + kind +
                              " that the profile '" + profile.name + "' compares",
                          "profile"};
         const int m = std::min(options.m.value_or(profile.m), index_m);
         plan.metrics_.push_back(
-            ways_of(signature->second, picture, options, profile, m, snapshots));
+            ways_of(windows->second, picture, options, profile, m, snapshots));
     }
     return plan;
 }

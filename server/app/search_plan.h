@@ -2,8 +2,8 @@
 //   query_picture, profiles -> [search_plan] -> image_search
 //
 // For each profile the picture is asked for in one or more ways: as it is, mirrored, turned;
-// among whole pictures and, with `content`, among what is within their borders. Several
-// profiles combine their ranks.
+// as a part of something larger; among whole pictures and, with `content`, among what is
+// within their borders. Several profiles combine their ranks.
 //
 // Errors   see make().
 // Threads  const-safe once made.

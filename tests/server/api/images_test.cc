@@ -156,7 +156,8 @@ TEST_F(ImagesTest, BadListParametersAreRefused) {
         {"cursor=abc", {400, "invalid_argument", "cursor"}},
         {"cursor=0", {400, "invalid_argument", "cursor"}},
         {"tags=a,,b", {400, "invalid_argument", "tags"}},
-        {"text=sea", {400, "not_built", "text"}},
+        {"text=...", {400, "invalid_argument", "text"}},
+        {"text=" + std::string(1025, 'x'), {400, "invalid_argument", "text"}},
         {"offset=5", {400, "unknown_parameter", "offset"}},
         {"limit=1&limit=2", {400, "repeated_parameter", "limit"}},
     };

@@ -59,7 +59,7 @@ class ImageSearchTest : public testing::Test {
         }
         const image::Signature signature =
             image::make_signature(image::scene(64, 64, 3).view());
-        picture_.signatures = {{signature.kind, signature}};
+        picture_.signatures = {{signature.kind, {signature}}};
         options_.profiles = {*image::built_in_profile("painted")};
         query_ = image::make_query(signature, options_.profiles.front(), 60);
     }

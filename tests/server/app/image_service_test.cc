@@ -24,7 +24,7 @@ class ImageServiceTest : public testing::Test {
         return reader.look(jpeg_scene(number), look).value();
     }
     static image::Signature signature(unsigned number) {
-        return picture(number).signatures.at({});
+        return picture(number).signatures.at({}).front();
     }
     static SearchOptions options(const std::string& profile = "painted") {
         SearchOptions options;
@@ -83,7 +83,7 @@ TEST_F(ImageServiceTest, RanksAsTheMetricDoes) {
         std::vector<std::pair<std::int64_t, std::int64_t>> expected;
         for (std::size_t i = 0; i < stored.size(); ++i)
             expected.emplace_back(
-                image::metric(query.signatures.at({}), stored[i], used, used.m),
+                image::metric(query.signatures.at({}).front(), stored[i], used, used.m),
                 static_cast<std::int64_t>(i) + 1);
         std::sort(expected.begin(), expected.end());
         ASSERT_EQ(answer->found.images.size(), expected.size());

@@ -48,7 +48,7 @@ TEST(PictureReader, WhatIsStoredIsWhatAQueryAsks) {
     const auto row = reader.describe(jpeg, ingest::kMainKind);
     const auto query = reader.look(jpeg, {});
     ASSERT_TRUE(row && query);
-    EXPECT_EQ(row->signature, image::encode_signature(query->signatures.at({})));
+    EXPECT_EQ(row->signature, image::encode_signature(query->signatures.at({}).front()));
 }
 
 TEST(PictureReader, GivesTheDecodersErrors) {

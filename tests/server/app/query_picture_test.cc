@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/image/aspect.h"
+#include "engine/image/window.h"
 #include "tests/engine/image/all_kinds.h"
 #include "tests/engine/image/pictures.h"
 
@@ -34,7 +35,9 @@ image::Pixels over_black(const image::Pixels& picture) {
 image::Signature signature_of(const image::Pixels& picture, Mask mask) {
     LookOptions look;
     look.mask = mask;
-    return look_at(picture.view(), picture.width, picture.height, look).signatures.at({});
+    return look_at(picture.view(), picture.width, picture.height, look)
+        .signatures.at({})
+        .front();
 }
 
 TEST(QueryPicture, MaskNoneCountsTransparencyAsBlack) {
@@ -61,8 +64,42 @@ TEST(QueryPicture, HasASignatureOfEachKindAndItsShape) {
     const QueryPicture found = look_at(picture.view(), 400, 300, look);
     ASSERT_EQ(found.signatures.size(), look.kinds.size());
     for (const image::SignatureKind& kind : look.kinds)
-        EXPECT_EQ(found.signatures.at(kind), image::make_signature(picture.view(), kind));
+        EXPECT_EQ(found.signatures.at(kind),
+                  std::vector{image::make_signature(picture.view(), kind)});
     EXPECT_EQ(found.log_aspect, image::log_aspect(400, 300));
+}
+
+// White margins of a fifth of the width on both sides.
+TEST(QueryPicture, AutocropLooksWithinTheBorders) {
+    const image::Pixels content = image::scene(60, 40, 3);
+    image::Pixels framed = image::flat(100, 40, {255, 255, 255});
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 60; ++x)
+            for (int channel = 0; channel < 3; ++channel)
+                framed.at(20 + x, y, channel) = content.at(x, y, channel);
+    LookOptions look;
+    look.autocrop = true;
+    const QueryPicture found = look_at(framed.view(), 1000, 400, look);
+    EXPECT_EQ(found.signatures.at({}),
+              std::vector{image::make_signature(content.view())});
+    EXPECT_EQ(found.log_aspect, image::log_aspect(600, 400));
+    EXPECT_EQ(look_at(content.view(), 60, 40, look).signatures.at({}),
+              found.signatures.at({}));
+}
+
+TEST(QueryPicture, APartIsTriedAtEveryWindow) {
+    const image::Pixels picture = image::scene(60, 40, 3);
+    LookOptions look;
+    look.partial = true;
+    look.kinds = {{}, {image::ColorSpace::kRgb, image::Decomposition::kNonstandard}};
+    const QueryPicture found = look_at(picture.view(), 60, 40, look);
+    for (const image::SignatureKind& kind : look.kinds) {
+        const auto expected = image::window_signatures(picture.view(), kind);
+        const std::vector<image::Signature>& windows = found.signatures.at(kind);
+        ASSERT_EQ(windows.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_EQ(windows[i], expected[i].signature);
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <random>
@@ -10,6 +11,7 @@
 
 #include "engine/image/aspect.h"
 #include "engine/image/metric.h"
+#include "engine/image/window.h"
 #include "tests/engine/image/random_signatures.h"
 
 namespace haarmony::server {
@@ -65,7 +67,7 @@ class SearchPlanTest : public testing::Test {
     SearchPlanTest() {
         image::Signature lab = random_signature(random_, kShape);
         lab.kind = kLab;
-        picture_.signatures = {{{}, random_signature(random_, kShape)}, {kLab, lab}};
+        picture_.signatures = {{{}, {random_signature(random_, kShape)}}, {kLab, {lab}}};
         picture_.log_aspect = 2'000'000;
         options_.profiles = {*image::built_in_profile("painted")};
     }
@@ -88,7 +90,7 @@ class SearchPlanTest : public testing::Test {
         double least = 1e300;
         for (const Symmetry symmetry : symmetries) {
             const image::Signature turned =
-                image::transformed(picture_.signatures.at({}), symmetry);
+                image::transformed(picture_.signatures.at({}).front(), symmetry);
             const std::int32_t shape = image::swaps_sides(symmetry)
                                            ? -*picture_.log_aspect
                                            : *picture_.log_aspect;
@@ -165,6 +167,37 @@ TEST_F(SearchPlanTest, WaysOfOtherWeightsAreComparedByDistance) {
     expect_all(make()->best(1000, nullptr), kAll, {"yiq-standard"});
 }
 
+// Equation (4.3) under the window's own weights, as with_weight_sum() makes them.
+TEST_F(SearchPlanTest, EveryWindowCountsAtItsBest) {
+    std::vector<image::Signature>& windows = picture_.signatures.at({});
+    for (int i = 0; i < 4; ++i) windows.push_back(random_signature(random_, kShape));
+    const Candidates found = make()->best(1000, nullptr);
+    const image::Profile& profile = options_.profiles[0];
+    const image::Query first = image::make_query(windows[0], profile, kM);
+    ASSERT_EQ(found.best.size(), 60U);
+    for (const Candidate& candidate : found.best) {
+        double least = 1e300;
+        for (const image::Signature& window : windows) {
+            const image::Query query = image::with_weight_sum(
+                image::make_query(window, profile, kM), first.weight_sum);
+            const image::Signature& target =
+                collection_.pictures.at("yiq-standard").at(to_int(candidate.id));
+            std::array<std::int32_t, image::kChannels> average{};
+            std::int64_t matched = 0;
+            for (int c = 0; c < image::kChannels; ++c) {
+                average[c] = target.channels[c].average;
+                for (const std::int16_t index : target.channels[c].largest(kM))
+                    for (const image::QueryTerm& term : query.terms)
+                        if (term.key == image::coefficient_key(c, index))
+                            matched += term.weight;
+            }
+            least = std::min(
+                least, image::distance(query, image::score(query, average, 0, matched)));
+        }
+        EXPECT_EQ(candidate.distance, least);
+    }
+}
+
 TEST_F(SearchPlanTest, AFewAreTheFirstOfAll) {
     options_.orientations = Orientations::kAll;
     options_.content = true;
@@ -223,7 +256,7 @@ TEST_F(SearchPlanTest, RanksOfProfilesAreCombined) {
                     collection_.pictures.at(p == 0 ? "yiq-standard" : "lab-standard");
                 const auto distance = [&](std::int64_t id) {
                     return image::metric(
-                        picture_.signatures.at(options_.profiles[p].kind),
+                        picture_.signatures.at(options_.profiles[p].kind).front(),
                         stored.at(id),
                         options_.profiles[p],
                         kM);
