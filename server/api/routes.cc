@@ -7,6 +7,7 @@
 #include "server/api/image_upload.h"
 #include "server/api/images.h"
 #include "server/api/openapi.h"
+#include "server/api/profiles.h"
 #include "server/api/query.h"
 #include "server/api/status.h"
 
@@ -44,6 +45,10 @@ constexpr std::array kRoutes{
           false,
           get_signature},
     Route{"GET", "/images/{id}/similar", Cost::kCheap, Body::kNone, false, get_similar},
+    Route{"GET", "/profiles", Cost::kCheap, Body::kNone, false, list_profiles},
+    Route{"GET", "/profiles/{name}", Cost::kCheap, Body::kNone, false, get_profile},
+    Route{"PUT", "/profiles/{name}", Cost::kCheap, Body::kPicture, false, put_profile},
+    Route{"DELETE", "/profiles/{name}", Cost::kCheap, Body::kNone, false, delete_profile},
     Route{"GET", "/healthz", Cost::kCheap, Body::kNone, true, get_health},
     Route{"GET", "/readyz", Cost::kCheap, Body::kNone, true, get_readiness},
     Route{"GET", "/status", Cost::kCheap, Body::kNone, false, get_status},

@@ -10,6 +10,7 @@
 
 #include "engine/core/result.h"
 #include "schema/database.h"
+#include "schema/feedback_store.h"
 #include "schema/image_store.h"
 #include "schema/profile_store.h"
 #include "server/app/lending_pool.h"
@@ -29,14 +30,19 @@ class Connection {
     [[nodiscard]] schema::Database& database() { return database_; }
     [[nodiscard]] schema::ImageStore& images() { return images_; }
     [[nodiscard]] schema::ProfileStore& profiles() { return profiles_; }
+    [[nodiscard]] schema::FeedbackStore& feedback() { return feedback_; }
 
   private:
     explicit Connection(schema::Database database)
-        : database_(std::move(database)), images_(database_), profiles_(database_) {}
+        : database_(std::move(database)),
+          images_(database_),
+          profiles_(database_),
+          feedback_(database_) {}
 
     schema::Database database_;
     schema::ImageStore images_;
     schema::ProfileStore profiles_;
+    schema::FeedbackStore feedback_;
 };
 
 using ReadConnections = LendingPool<Connection>;

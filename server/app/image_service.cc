@@ -23,6 +23,12 @@ Answer logged(Answer answer) {
     return answer;
 }
 
+Error built_in(std::string_view name) {
+    return {ErrorCode::kConflict,
+            "the profile '" + std::string(name) + "' is built in: it cannot be changed",
+            "name"};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ImageService>> ImageService::open(
@@ -70,6 +76,20 @@ auto ImageService::read(Work&& work) {
     auto connection = readers_.lend();
     if (!connection) return logged(Answer(connection.error()));
     return logged(work((*connection)->images()));
+}
+
+template <typename Work>
+auto ImageService::record(Work&& work) {
+    const std::lock_guard lock(writer_mutex_);
+    return logged(work(*writer_));
+}
+
+template <typename Work>
+auto ImageService::consult(Work&& work) {
+    using Answer = decltype(work(std::declval<Connection&>()));
+    auto connection = readers_.lend();
+    if (!connection) return logged(Answer(connection.error()));
+    return logged(work(**connection));
 }
 
 Result<ServiceStatus> ImageService::status() {
@@ -140,6 +160,41 @@ Result<image::Profile> ImageService::profile(std::string_view name) {
     auto connection = readers_.lend();
     if (!connection) return logged(Result<image::Profile>(connection.error()));
     return logged(ingest::find_profile((*connection)->profiles(), name));
+}
+
+Result<std::vector<schema::StoredProfile>> ImageService::profiles() {
+    return consult([](Connection& connection) { return connection.profiles().list(); });
+}
+
+Result<schema::StoredProfile> ImageService::stored_profile(std::string_view name) {
+    return consult(
+        [&](Connection& connection) { return connection.profiles().get(name); });
+}
+
+Result<PutProfile> ImageService::put_profile(const image::Profile& profile) {
+    if (image::built_in_profile(profile.name)) return built_in(profile.name);
+    return record([&](Connection& connection) -> Result<PutProfile> {
+        schema::ProfileStore& profiles = connection.profiles();
+        const auto before = profiles.get(profile.name);
+        if (!before && before.error().code != ErrorCode::kNotFound) return before.error();
+        if (const auto stored = profiles.put(ingest::to_stored(profile)); !stored)
+            return stored.error();
+        auto after = profiles.get(profile.name);
+        if (!after) return std::move(after).error();
+        return PutProfile{std::move(after).value(), !before};
+    });
+}
+
+Result<void> ImageService::remove_profile(std::string_view name) {
+    if (image::built_in_profile(name)) return built_in(name);
+    return record(
+        [&](Connection& connection) { return connection.profiles().remove(name); });
+}
+
+std::int64_t ImageService::searchable(std::string_view variant) const {
+    const Snapshots snapshots = follower_->snapshots();
+    const auto found = snapshots.find(variant);
+    return found == snapshots.end() ? 0 : found->second->stats().images;
 }
 
 Result<std::vector<image::SignatureKind>> ImageService::kinds_in_use() {

@@ -67,6 +67,11 @@ struct ServiceStatus {
     bool ready = false;
 };
 
+struct PutProfile {
+    schema::StoredProfile profile;
+    bool created = false;  // no profile had that name
+};
+
 class ImageService {
   public:
     // Creates or migrates the database and starts to load it.
@@ -87,6 +92,15 @@ class ImageService {
 
     // A built-in profile or a stored one, as it is now; kNotFound naming it.
     [[nodiscard]] Result<image::Profile> profile(std::string_view name);
+    // The stored ones, in the order of names, those that the engine does not know too.
+    [[nodiscard]] Result<std::vector<schema::StoredProfile>> profiles();
+    // kNotFound naming it, for a built-in one too.
+    [[nodiscard]] Result<schema::StoredProfile> stored_profile(std::string_view name);
+    // Inserts or replaces. kConflict for the name of a built-in profile, here and below.
+    [[nodiscard]] Result<PutProfile> put_profile(const image::Profile& profile);
+    [[nodiscard]] Result<void> remove_profile(std::string_view name);
+    // How many pictures the index of that variant (ingest/variant.h) can find.
+    [[nodiscard]] std::int64_t searchable(std::string_view variant) const;
 
     [[nodiscard]] Result<ImageId> add(std::span<const std::uint8_t> picture,
                                       const ImageAttributes& attributes);
@@ -116,6 +130,11 @@ class ImageService {
     auto write(Work&& work);
     template <typename Work>
     auto read(Work&& work);
+    // The same for what no search finds: `work` gets the connection.
+    template <typename Work>
+    auto record(Work&& work);
+    template <typename Work>
+    auto consult(Work&& work);
 
     std::mutex writer_mutex_;  // guards writer_
     std::unique_ptr<Connection> writer_;
