@@ -231,6 +231,22 @@ Result<void> DuplicateStore::ignore(ImageId one, ImageId other) {
     return {};
 }
 
+Result<std::vector<std::pair<ImageId, ImageId>>> DuplicateStore::ignored() {
+    const auto failed = [](Error error) {
+        return while_doing("cannot list what is ignored", std::move(error));
+    };
+    auto statement = cache_.borrow("SELECT a, b FROM ignored_duplicates ORDER BY a, b");
+    if (!statement) return failed(std::move(statement).error());
+    std::vector<std::pair<ImageId, ImageId>> pairs;
+    for (;;) {
+        const Result<bool> row = (*statement)->step();
+        if (!row) return failed(row.error());
+        if (!*row) return pairs;
+        pairs.emplace_back(ImageId{(*statement)->integer(0)},
+                           ImageId{(*statement)->integer(1)});
+    }
+}
+
 Result<std::vector<std::vector<ImageId>>> DuplicateStore::same_content() {
     const auto failed = [](Error error) {
         return while_doing("cannot compare the contents", std::move(error));

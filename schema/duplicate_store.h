@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/ids.h"
@@ -55,6 +56,8 @@ class DuplicateStore {
     // The two, in any order, are no duplicates, whatever later searches find. Saying it
     // again changes nothing. kInvalidArgument for a picture and itself.
     [[nodiscard]] Result<void> ignore(ImageId one, ImageId other);
+    // All such pairs, the smaller id first, in the order of (a, b).
+    [[nodiscard]] Result<std::vector<std::pair<ImageId, ImageId>>> ignored();
 
     // The searchable pictures whose files are the same byte by byte (content_hash): groups
     // of two or more, rising, in the order of their first pictures.

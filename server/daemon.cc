@@ -15,7 +15,11 @@
 #include "server/api/api_keys.h"
 #include "server/api/context.h"
 #include "server/api/routes.h"
+#include "server/app/cluster_overview.h"
+#include "server/app/duplicate_groups.h"
 #include "server/app/image_service.h"
+#include "server/app/job_runner.h"
+#include "server/app/job_types.h"
 #include "server/app/media_roots.h"
 #include "server/http/listener.h"
 #include "server/http/probe.h"
@@ -122,7 +126,24 @@ int run_daemon(const Config& config) {
     auto images = ImageService::open(service);
     if (!images) return leave(kExitCouldNotRun, images.error());
 
+    IngestJobOptions ingest;
+    ingest.database_path = config.database;
+    ingest.media_roots = media_roots.value();
+    ingest.threads = config.threads;
+    JobRunnerOptions running;
+    running.database_path = config.database;
+    auto jobs = JobRunner::start(
+        running, job_types(images.value()->index(), ingest, service.decode));
+    if (!jobs) return leave(kExitCouldNotRun, jobs.error());
+    auto duplicates = DuplicateGroups::open(config.database);
+    if (!duplicates) return leave(kExitCouldNotRun, duplicates.error());
+    ClusterOverview clusters(
+        config.database, images.value()->index(), config.threads - 1);
+
     const Context context{*images.value(),
+                          *jobs.value(),
+                          *duplicates.value(),
+                          clusters,
                           std::move(media_roots).value(),
                           config.allow_url_fetch,
                           config.max_body};
@@ -142,6 +163,7 @@ int run_daemon(const Config& config) {
     signals->wait();
     signals.reset();
     listener.value()->stop();
+    jobs.value()->stop();
     images.value()->stop();
     log_stopped();
     return 0;

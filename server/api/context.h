@@ -3,13 +3,19 @@
 
 #include <cstdint>
 
+#include "server/app/cluster_overview.h"
+#include "server/app/duplicate_groups.h"
 #include "server/app/image_service.h"
+#include "server/app/job_runner.h"
 #include "server/app/media_roots.h"
 
 namespace haarmony::server {
 
 struct Context {
     ImageService& images;
+    JobRunner& jobs;
+    DuplicateGroups& duplicates;
+    ClusterOverview& clusters;
     MediaRoots media_roots;
     bool allow_url_fetch = false;
     std::uint64_t max_body = std::uint64_t{64} << 20;  // bytes of a picture or of JSON

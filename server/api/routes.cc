@@ -3,9 +3,12 @@
 #include <array>
 #include <utility>
 
+#include "server/api/clusters.h"
+#include "server/api/duplicates.h"
 #include "server/api/image_media.h"
 #include "server/api/image_upload.h"
 #include "server/api/images.h"
+#include "server/api/jobs.h"
 #include "server/api/openapi.h"
 #include "server/api/profiles.h"
 #include "server/api/query.h"
@@ -16,7 +19,8 @@ namespace {
 
 using http::Cost;
 
-// Costly is what may decode a picture; those wait in a queue of their own.
+// Costly is what may decode a picture or looks at the whole collection; those wait in a
+// queue of their own.
 constexpr std::array kRoutes{
     Route{"POST",
           "/query",
@@ -49,6 +53,19 @@ constexpr std::array kRoutes{
     Route{"GET", "/profiles/{name}", Cost::kCheap, Body::kNone, false, get_profile},
     Route{"PUT", "/profiles/{name}", Cost::kCheap, Body::kPicture, false, put_profile},
     Route{"DELETE", "/profiles/{name}", Cost::kCheap, Body::kNone, false, delete_profile},
+    Route{"GET", "/clusters", Cost::kCostly, Body::kNone, false, get_clusters},
+    Route{"GET", "/duplicates", Cost::kCostly, Body::kNone, false, list_duplicates},
+    Route{"POST",
+          "/duplicates/ignore",
+          Cost::kCheap,
+          Body::kPicture,
+          false,
+          post_ignored_duplicates},
+    Route{"POST", "/jobs", Cost::kCheap, Body::kPicture, false, post_job},
+    Route{"GET", "/jobs", Cost::kCheap, Body::kNone, false, list_jobs},
+    Route{"GET", "/jobs/{id}", Cost::kCheap, Body::kNone, false, get_job},
+    Route{"DELETE", "/jobs/{id}", Cost::kCheap, Body::kNone, false, delete_job},
+    Route{"GET", "/jobs/{id}/events", Cost::kCheap, Body::kNone, false, get_job_events},
     Route{"GET", "/healthz", Cost::kCheap, Body::kNone, true, get_health},
     Route{"GET", "/readyz", Cost::kCheap, Body::kNone, true, get_readiness},
     Route{"GET", "/status", Cost::kCheap, Body::kNone, false, get_status},

@@ -10,8 +10,10 @@
 
 #include "engine/core/result.h"
 #include "schema/database.h"
+#include "schema/duplicate_store.h"
 #include "schema/feedback_store.h"
 #include "schema/image_store.h"
+#include "schema/job_store.h"
 #include "schema/profile_store.h"
 #include "server/app/lending_pool.h"
 
@@ -31,18 +33,24 @@ class Connection {
     [[nodiscard]] schema::ImageStore& images() { return images_; }
     [[nodiscard]] schema::ProfileStore& profiles() { return profiles_; }
     [[nodiscard]] schema::FeedbackStore& feedback() { return feedback_; }
+    [[nodiscard]] schema::JobStore& jobs() { return jobs_; }
+    [[nodiscard]] schema::DuplicateStore& duplicates() { return duplicates_; }
 
   private:
     explicit Connection(schema::Database database)
         : database_(std::move(database)),
           images_(database_),
           profiles_(database_),
-          feedback_(database_) {}
+          feedback_(database_),
+          jobs_(database_),
+          duplicates_(database_) {}
 
     schema::Database database_;
     schema::ImageStore images_;
     schema::ProfileStore profiles_;
     schema::FeedbackStore feedback_;
+    schema::JobStore jobs_;
+    schema::DuplicateStore duplicates_;
 };
 
 using ReadConnections = LendingPool<Connection>;

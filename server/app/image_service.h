@@ -82,6 +82,8 @@ class ImageService {
     [[nodiscard]] Result<ServiceStatus> status();
 
     [[nodiscard]] PictureReader& pictures() { return pictures_; }
+    // The indexes themselves, for those who search them in their own way.
+    [[nodiscard]] const IndexFollower& index() const { return *follower_; }
 
     [[nodiscard]] Result<SearchAnswer> search(const QueryPicture& picture,
                                               const SearchOptions& options);

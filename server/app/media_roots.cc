@@ -54,4 +54,18 @@ Result<std::string> MediaRoots::locate(std::string_view uri) const {
     return real.string();
 }
 
+Result<std::string> MediaRoots::locate_path(const std::string& path) const {
+    if (!fs::path(path).is_absolute() || path.find('\0') != std::string::npos)
+        return Error{ErrorCode::kInvalidArgument,
+                     "'" + path + "' is not an absolute path"};
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(path, error);
+    if (error || !contain(real.string()))
+        return Error{ErrorCode::kForbidden,
+                     "'" + path + "' is not below a media root of this server"};
+    if (!fs::exists(real, error))
+        return Error{ErrorCode::kNotFound, "'" + path + "' is gone"};
+    return real.string();
+}
+
 }  // namespace haarmony::server

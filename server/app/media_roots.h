@@ -23,6 +23,10 @@ class MediaRoots {
     // lies, or would lie, outside every root; kNotFound where the address names no file of
     // this machine or the file is gone.
     [[nodiscard]] Result<std::string> locate(std::string_view uri) const;
+    // The real path of an absolute path to a file or a folder. kForbidden as above,
+    // kNotFound where it is gone, kInvalidArgument where it is relative; these name the
+    // path, which the client knows.
+    [[nodiscard]] Result<std::string> locate_path(const std::string& path) const;
 
   private:
     [[nodiscard]] bool contain(const std::string& path) const;

@@ -5,20 +5,52 @@
 #include <utility>
 
 #include "server/api/routes.h"
+#include "server/app/job_types.h"
 #include "server/http/conditional.h"
 #include "server/http/target.h"
+#include "tests/schema/raw_sql.h"
 
 namespace haarmony::server {
 
 using nlohmann::json;
 
-Interface::Interface(std::vector<std::string> media_roots, bool allow_url_fetch) {
+Interface::Interface(std::vector<std::string> media_roots, bool allow_url_fetch)
+    : allow_url_fetch_(allow_url_fetch) {
     collection.open();
     auto roots = MediaRoots::open(media_roots);
     if (!roots) throw std::runtime_error(roots.error().message);
-    context_ = std::make_unique<Context>(
-        Context{*collection.service, std::move(roots).value(), allow_url_fetch});
-    add_routes(*context_, router_);
+    media_roots_ = std::move(roots).value();
+    const IndexFollower& index = collection.service->index();
+    const std::string path = collection.path();
+    auto groups = DuplicateGroups::open(path);
+    if (!groups) throw std::runtime_error(groups.error().message);
+    duplicates = std::move(groups).value();
+    clusters = std::make_unique<ClusterOverview>(path, index, 1);
+    JobRunnerOptions running;
+    running.database_path = path;
+    running.progress_interval = std::chrono::milliseconds(0);
+    auto started =
+        JobRunner::start(running, job_types(index, {path, media_roots_, 1}, {}));
+    if (!started) throw std::runtime_error(started.error().message);
+    replace_jobs(std::move(started).value());
+}
+
+void Interface::replace_jobs(std::unique_ptr<JobRunner> runner) {
+    jobs = std::move(runner);
+    context_ = std::make_unique<Context>(Context{*collection.service,
+                                                 *jobs,
+                                                 *duplicates,
+                                                 *clusters,
+                                                 media_roots_,
+                                                 allow_url_fetch_});
+    router_ = std::make_unique<http::Router>();
+    add_routes(*context_, *router_);
+}
+
+void Interface::sql(const std::string& statement) {
+    const schema::RawConnection raw(collection.path());
+    schema::run_sql(raw.handle(), "PRAGMA busy_timeout = 5000");
+    schema::run_sql(raw.handle(), statement);
 }
 
 http::Response Interface::send(const std::string& method,
@@ -34,7 +66,7 @@ http::Response Interface::send(const std::string& method,
     request.headers = headers;
     request.body = body;
     request.request_id = "test";
-    http::Response response = router_.dispatch(request);
+    http::Response response = router_->dispatch(request);
     http::apply_conditions(request, response);
     return response;
 }

@@ -2,6 +2,7 @@
 // replies as JSON.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -36,10 +37,20 @@ class Interface {
         return post(target, "application/json", body.dump());
     }
 
+    // Other jobs than the daemon's.
+    void replace_jobs(std::unique_ptr<JobRunner> runner);
+    // On a connection of its own.
+    void sql(const std::string& statement);
+
     Collection collection;
+    std::unique_ptr<JobRunner> jobs;
+    std::unique_ptr<DuplicateGroups> duplicates;
+    std::unique_ptr<ClusterOverview> clusters;
 
   private:
-    http::Router router_;
+    MediaRoots media_roots_;
+    bool allow_url_fetch_;
+    std::unique_ptr<http::Router> router_;
     std::unique_ptr<Context> context_;
 };
 

@@ -37,7 +37,16 @@ TEST(Status, UntilTheCollectionIsLoadedTheDaemonIsWellButNotReady) {
     options.database_path = collection.path();
     auto service = ImageService::open(options);
     ASSERT_TRUE(service);
-    const Context context{*service.value(), MediaRoots::open({}).value()};
+    const auto jobs = JobRunner::start({collection.path()}, {});
+    ASSERT_TRUE(jobs);
+    const auto duplicates = DuplicateGroups::open(collection.path());
+    ASSERT_TRUE(duplicates);
+    ClusterOverview clusters(collection.path(), service.value()->index(), 0);
+    const Context context{*service.value(),
+                          *jobs.value(),
+                          *duplicates.value(),
+                          clusters,
+                          MediaRoots::open({}).value()};
     http::Router router;
     add_routes(context, router);
     const auto get = [&](const std::string& path) {

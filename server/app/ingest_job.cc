@@ -1,0 +1,88 @@
+#include "server/app/ingest_job.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "ingest/catalogue.h"
+#include "ingest/file_uri.h"
+#include "ingest/pipeline.h"
+
+namespace haarmony::server {
+namespace {
+
+using nlohmann::json;
+
+class JobObserver final : public ingest::Observer {
+  public:
+    explicit JobObserver(JobContext& job) : job_(job) {}
+
+    void failed(const std::string& path, const std::string& reason) override {
+        job_.add_error((path.starts_with('/') ? ingest::file_uri(path) : path) + ": " +
+                       reason);
+    }
+    void progress(const ingest::Tally& tally, std::int64_t total) override {
+        job_.set_total(total);
+        job_.counts() = {
+            tally.seen, tally.added, tally.updated, tally.skipped, tally.failed};
+        job_.progress();
+    }
+
+  private:
+    JobContext& job_;
+};
+
+// The real paths: a link may lead elsewhere than when the job was queued.
+Result<std::vector<std::string>> paths_of(const std::string& text,
+                                          const MediaRoots& media_roots) {
+    const json request = json::parse(text, nullptr, false);
+    if (!request.is_object() || !request.contains("paths") ||
+        !request["paths"].is_array())
+        return Error{ErrorCode::kInvalidArgument,
+                     "the request " + text + " is not understood"};
+    std::vector<std::string> paths;
+    for (const json& path : request["paths"]) {
+        if (!path.is_string())
+            return Error{ErrorCode::kInvalidArgument,
+                         "the request " + text + " is not understood"};
+        Result<std::string> real = media_roots.locate_path(path.get<std::string>());
+        if (!real) return std::move(real).error();
+        paths.push_back(std::move(real).value());
+    }
+    return paths;
+}
+
+Result<void> run(JobContext& job, const IngestJobOptions& options) {
+    auto paths = paths_of(job.request(), options.media_roots);
+    if (!paths) return std::move(paths).error();
+    auto catalogue = ingest::StoredCatalogue::open(options.database_path);
+    if (!catalogue) return std::move(catalogue).error();
+    auto kinds = catalogue.value()->kinds_in_use();
+    if (!kinds) return std::move(kinds).error();
+
+    ingest::PipelineOptions pipeline;
+    pipeline.paths = std::move(paths).value();
+    pipeline.walk.own_files = ingest::database_files(options.database_path);
+    pipeline.jobs = options.threads;
+    pipeline.count_ahead = true;
+    JobObserver observer(job);
+    ingest::Report report = ingest::run(pipeline,
+                                        *catalogue.value(),
+                                        ingest::picture_steps(std::move(kinds).value()),
+                                        observer,
+                                        job.stop_flag());
+    observer.progress(report.tally, report.tally.seen);
+    if (!report.outcome) return std::move(report.outcome).error();
+    if (report.stopped && job.cancelled()) return {};
+    if (report.paths_reached == 0)
+        return Error{ErrorCode::kNotFound, "none of the paths could be read"};
+    return {};
+}
+
+}  // namespace
+
+JobType ingest_job(const IngestJobOptions& options) {
+    return {[options](JobContext& job) { return run(job, options); }};
+}
+
+}  // namespace haarmony::server

@@ -1,0 +1,16 @@
+#include "server/app/job_types.h"
+
+#include "server/app/find_duplicates_job.h"
+#include "server/app/reindex_job.h"
+
+namespace haarmony::server {
+
+JobTypes job_types(const IndexFollower& follower,
+                   const IngestJobOptions& ingest,
+                   const ingest::DecodeLimits& decode) {
+    return {{"find_duplicates", find_duplicates_job(follower)},
+            {"ingest", ingest_job(ingest)},
+            {"reindex", reindex_job(decode)}};
+}
+
+}  // namespace haarmony::server
