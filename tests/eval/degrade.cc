@@ -52,10 +52,12 @@ RgbPicture resize(const RgbPicture& picture, int width, int height) {
     assert(width >= 1 && height >= 1);
     RgbPicture result{width, height, {}};
     result.rgb.reserve(static_cast<std::size_t>(width) * height * 3);
+    std::vector<Span> spans_across;
+    for (int x = 0; x < width; ++x)
+        spans_across.push_back(span_of(x, width, picture.width));
     for (int y = 0; y < height; ++y) {
         const Span rows = span_of(y, height, picture.height);
-        for (int x = 0; x < width; ++x) {
-            const Span columns = span_of(x, width, picture.width);
+        for (const Span& columns : spans_across) {
             double sum[3] = {0, 0, 0};
             for (std::size_t j = 0; j < rows.shares.size(); ++j) {
                 for (std::size_t i = 0; i < columns.shares.size(); ++i) {

@@ -1,28 +1,90 @@
 // haarmony-eval: measures how well and how fast the search works on one's own pictures.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <string>
+#include <thread>
 
 #include "tests/eval/copies.h"
+#include "tests/eval/figures.h"
+#include "tests/eval/worker_threads.h"
+
+namespace {
+
+using haarmony::eval::CopiesOptions;
+using haarmony::eval::FiguresOptions;
+
+int failed(const haarmony::Error& error) {
+    std::cerr << error.message << '\n';
+    return 3;
+}
+
+int run_copies(const CopiesOptions& options) {
+    const auto report = haarmony::eval::measure_copies(options);
+    if (!report) return failed(report.error());
+    std::cout << to_text(*report);
+    return 0;
+}
+
+struct FiguresCommand {
+    std::string images;
+    std::string out;
+    int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    FiguresOptions options;
+};
+
+int run_figures(const FiguresCommand& command) {
+    const auto source = haarmony::eval::folder_source(command.images);
+    if (!source) return failed(source.error());
+    haarmony::eval::WorkerThreads threads(command.threads);
+    const auto files = haarmony::eval::make_figures(
+        *source, command.options, threads, [](const std::string& line) {
+            std::cerr << line << '\n';
+        });
+    if (!files) return failed(files.error());
+    const auto written = haarmony::eval::write_files(*files, command.out);
+    if (!written) return failed(written.error());
+    for (const auto& file : *files) std::cout << command.out << '/' << file.name << '\n';
+    return 0;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app{"Measures how well the search works on a folder of pictures"};
     app.require_subcommand(1);
-    haarmony::eval::CopiesOptions options;
+
+    CopiesOptions copies_options;
     CLI::App* copies = app.add_subcommand(
         "copies", "ranks of the originals of poor copies and of coarse paintings");
-    copies->add_option("--images", options.folder, "folder of pictures")->required();
-    copies->add_option("--queries", options.queries, "how many pictures to query for")
+    copies->add_option("--images", copies_options.folder, "folder of pictures")
+        ->required();
+    copies
+        ->add_option(
+            "--queries", copies_options.queries, "how many pictures to query for")
         ->check(CLI::Range(1, 1'000'000));
+
+    FiguresCommand command;
+    CLI::App* figures = app.add_subcommand(
+        "figures", "the figures and tables of the evaluation, as a page and CSV");
+    figures->add_option("--images", command.images, "folder of pictures")->required();
+    figures->add_option("--out", command.out, "folder for index.html and the tables")
+        ->required();
+    figures
+        ->add_option(
+            "--queries", command.options.queries, "how many pictures to query for")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    figures->add_option("--seed", command.options.seed, "of everything random")
+        ->capture_default_str();
+    figures->add_option("--threads", command.threads, "how many at a time")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    const auto report = haarmony::eval::measure_copies(options);
-    if (!report) {
-        std::cerr << report.error().message << '\n';
-        return 3;
-    }
-    std::cout << to_text(*report);
-    return 0;
+    return copies->parsed() ? run_copies(copies_options) : run_figures(command);
 }

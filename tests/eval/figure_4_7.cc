@@ -1,0 +1,161 @@
+#include "tests/eval/figure_4_7.h"
+
+#include <cassert>
+#include <utility>
+
+#include "tests/eval/affine.h"
+#include "tests/eval/distortions.h"
+#include "tests/eval/rank_table.h"
+#include "tests/eval/recolour.h"
+
+namespace haarmony::eval {
+namespace {
+
+using Ranks = std::vector<std::int64_t>;
+
+struct Column {
+    std::string query;
+    MetricName name;
+    std::string profile;
+};
+
+// The curves of the figure: every metric on the targets themselves, and the profile that is
+// meant for it on each kind of simulated query.
+std::vector<Column> columns_of(const MetricPanel& panel) {
+    std::vector<Column> columns;
+    for (const auto& [name, profile] : panel.columns())
+        columns.push_back({"target", name, profile});
+    for (const image::Profile& profile : panel.profiles())
+        columns.push_back({profile.name, wavelet_name(profile), profile.name});
+    return columns;
+}
+
+RgbPicture simulated(const std::string& query, const RgbPicture& picture, Random random) {
+    return query == "scanned" ? simulate_scan(picture, random)
+                              : simulate_painting(picture, random);
+}
+
+// The target's rank in each column.
+Ranks ranks_at(const Experiment& experiment,
+               const MetricPanel& panel,
+               Effect effect,
+               double strength,
+               std::size_t target) {
+    const auto distorted = [&](const RgbPicture& picture) {
+        Random random = experiment.random(effect_name(effect), target);
+        return distort(picture, effect, strength, random);
+    };
+    const RgbPicture& picture = experiment.picture(target);
+    Ranks ranks = panel.ranks(distorted(picture).view(), target);
+    for (const image::Profile& profile : panel.profiles()) {
+        const RgbPicture query = distorted(
+            simulated(profile.name, picture, experiment.random(profile.name, target)));
+        ranks.push_back(
+            panel.search().rank(image::make_signature(query.view()), profile, target));
+    }
+    return ranks;
+}
+
+}  // namespace
+
+std::string effect_name(Effect effect) {
+    switch (effect) {
+        case Effect::kScale:
+            return "scale";
+        case Effect::kRotation:
+            return "rotation";
+        case Effect::kTranslation:
+            return "translation";
+        case Effect::kColourShift:
+            return "colour shift";
+        case Effect::kAll:
+            break;
+    }
+    return "all four";
+}
+
+double effect_value(Effect effect, double strength) {
+    switch (effect) {
+        case Effect::kScale:
+            return 1 + strength;
+        case Effect::kRotation:
+            return 45 * strength;
+        case Effect::kTranslation:
+            return 0.5 * strength;
+        case Effect::kColourShift:
+        case Effect::kAll:
+            break;
+    }
+    return strength;
+}
+
+RgbPicture distort(const RgbPicture& picture,
+                   Effect effect,
+                   double strength,
+                   Random& random) {
+    assert(strength >= 0 && strength <= 1);
+    const auto value = [&](Effect part) { return effect_value(part, strength); };
+    switch (effect) {
+        case Effect::kScale:
+            return enlarge(picture, value(Effect::kScale));
+        case Effect::kRotation:
+            return rotate(picture, random.sign() * value(Effect::kRotation));
+        case Effect::kTranslation:
+            return random_translation(picture, value(Effect::kTranslation), random);
+        case Effect::kColourShift:
+            return random_colour_shift(picture, value(Effect::kColourShift), random);
+        case Effect::kAll:
+            break;
+    }
+    RgbPicture result = picture;
+    for (const Effect part : kEffects) {
+        if (part != Effect::kAll) result = distort(result, part, strength, random);
+    }
+    return result;
+}
+
+Figure47 measure_figure_4_7(const Experiment& experiment,
+                            const MetricPanel& panel,
+                            int steps) {
+    assert(steps >= 2);
+    Figure47 figure;
+    const std::vector<Column> columns = columns_of(panel);
+    const std::vector<std::size_t>& targets = experiment.distorted();
+    for (const Effect effect : kEffects) {
+        for (int step = 0; step < steps; ++step) {
+            const double strength = static_cast<double>(step) / (steps - 1);
+            std::vector<Ranks> by_query(targets.size());
+            experiment.executor().parallel_for(targets.size(), [&](std::size_t i) {
+                by_query[i] = ranks_at(experiment, panel, effect, strength, targets[i]);
+            });
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                Ranks ranks;
+                for (const Ranks& all : by_query) ranks.push_back(all[c]);
+                figure.points.push_back({effect,
+                                         effect_value(effect, strength),
+                                         columns[c].query,
+                                         columns[c].name,
+                                         columns[c].profile,
+                                         summarize(ranks, experiment.database().size())});
+            }
+        }
+    }
+    return figure;
+}
+
+CsvTable to_csv(const Figure47& figure) {
+    CsvTable table(with_rank_header(
+        {"effect", "strength", "query", "metric", "resolution", "profile"}));
+    for (const DistortionPoint& point : figure.points) {
+        table.add(with_ranks({effect_name(point.effect),
+                              point.value,
+                              point.query,
+                              point.name.metric,
+                              point.name.resolution,
+                              point.profile},
+                             point.summary));
+    }
+    return table;
+}
+
+}  // namespace haarmony::eval
