@@ -1,6 +1,5 @@
 #include "tests/eval/database.h"
 
-#include <cassert>
 #include <optional>
 #include <utility>
 
@@ -27,10 +26,7 @@ Result<Database> make_database(const PictureSource& source,
         }
         described[i].emplace();
         described[i]->rivals = describe_rivals(picture->view());
-        for (const image::SignatureKind& kind : kinds) {
-            assert(kind == image::SignatureKind{});
-            described[i]->signatures.push_back(image::make_signature(picture->view()));
-        }
+        described[i]->signatures = image::make_signatures(picture->view(), kinds);
     });
 
     Database database;

@@ -41,7 +41,7 @@ WaveletSearch::WaveletSearch(const Database& database, const image::SignatureKin
 std::vector<image::Match> WaveletSearch::order(const image::Signature& query,
                                                const image::Profile& profile) const {
     assert(profile.kind == kind_);
-    return snapshot_->search(image::make_query(query, profile, profile.m), pictures_)
+    return snapshot_->search(image::make_query(query, profile, profile.m), {pictures_})
         .matches;
 }
 

@@ -102,7 +102,7 @@ Table42 measure_table_4_2(const Experiment& experiment,
                     ->search(
                         image::make_query(
                             image::make_signature(query.view()), profile, kCoefficients),
-                        kTop)
+                        {kTop})
                     .matches.size();
             }));
         table.rows.back().profile = profile.name;
