@@ -1,8 +1,13 @@
 #include "tests/eval/figure_4_6.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "tests/eval/metric_style.h"
+#include "tests/eval/page.h"
+#include "tests/eval/plot_svg.h"
 #include "tests/eval/rank_table.h"
 
 namespace haarmony::eval {
@@ -11,6 +16,12 @@ namespace {
 constexpr std::array kKinds = {QueryKind::kScanned,
                                QueryKind::kPainted,
                                QueryKind::kHalfPainted};
+
+// Whether a curve is L^q under the profile that is meant for its kind of query.
+bool is_meant(const RankCurve& curve) {
+    const bool scanned = curve.kind == QueryKind::kScanned;
+    return curve.profile == (scanned ? "scanned" : "painted");
+}
 
 }  // namespace
 
@@ -85,6 +96,64 @@ CsvTable summary_csv(const Figure46& figure) {
                              curve.summary));
     }
     return table;
+}
+
+std::string to_html(const Figure46& figure) {
+    std::vector<Plot> plots;
+    const double pictures = static_cast<double>(figure.pictures);
+    for (const QueryKind kind : kKinds) {
+        Plot plot{query_kind_name(kind) + " queries",
+                  {"top x % of the database", 100 / pictures, 100, true},
+                  {"% of queries", 0, 100},
+                  {}};
+        if (figure.pictures == 1) plot.x.low = 10;
+        for (const RankCurve& curve : figure.curves) {
+            if (curve.kind != kind) continue;
+            PlotSeries series{metric_label(curve.name, curve.profile),
+                              metric_style(curve.name, curve.profile),
+                              {},
+                              false,
+                              is_meant(curve)};
+            for (const std::int64_t place : curve_places(figure.pictures)) {
+                series.points.push_back(
+                    rate_point(100 * static_cast<double>(place) / pictures,
+                               within(curve.ranks, place)));
+            }
+            plot.series.push_back(std::move(series));
+        }
+        plots.push_back(std::move(plot));
+    }
+    std::vector<std::string> drawings;
+    for (const Plot& plot : plots) drawings.push_back(to_svg(plot));
+
+    HtmlTable table({"query",
+                     "metric",
+                     "rank 1, %",
+                     "top 20, %",
+                     "top 1 %, %",
+                     "mean reciprocal rank",
+                     "median rank"},
+                    2);
+    for (const RankCurve& curve : figure.curves) {
+        const RankSummary& summary = curve.summary;
+        table.add({query_kind_name(curve.kind),
+                   metric_label(curve.name, curve.profile),
+                   percent_with_interval(summary.first),
+                   percent_with_interval(summary.top_20),
+                   percent_with_interval(summary.top_1_percent),
+                   number(summary.mean_reciprocal, 3),
+                   std::to_string(summary.median)},
+                  is_meant(curve)
+                      ? std::vector<bool>{false, true, true, true, true, true, true}
+                      : std::vector<bool>{});
+    }
+    return paragraph(
+               "The percentage of queries whose target is in the top x % of the database. "
+               "The band is the 95 % interval of L^q under the profile that is meant for "
+               "the kind of query (in bold in the table). Painting from memory cannot be "
+               "simulated; half paintings take its place. What is transparent there counts "
+               "as the mean of what is painted, for every metric.") +
+           panels(drawings) + legend(plots) + table.html();
 }
 
 }  // namespace haarmony::eval

@@ -1,10 +1,14 @@
 #include "tests/eval/figure_4_7.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include "tests/eval/affine.h"
 #include "tests/eval/distortions.h"
+#include "tests/eval/metric_style.h"
+#include "tests/eval/page.h"
+#include "tests/eval/plot_svg.h"
 #include "tests/eval/rank_table.h"
 #include "tests/eval/recolour.h"
 
@@ -72,6 +76,22 @@ std::string effect_name(Effect effect) {
             break;
     }
     return "all four";
+}
+
+std::string axis_label(Effect effect) {
+    switch (effect) {
+        case Effect::kScale:
+            return "scale factor";
+        case Effect::kRotation:
+            return "rotation, degrees";
+        case Effect::kTranslation:
+            return "translation, widths";
+        case Effect::kColourShift:
+            return "colour shift, of the cube's side";
+        case Effect::kAll:
+            break;
+    }
+    return "share of the most of each";
 }
 
 double effect_value(Effect effect, double strength) {
@@ -156,6 +176,45 @@ CsvTable to_csv(const Figure47& figure) {
                              point.summary));
     }
     return table;
+}
+
+std::string to_html(const Figure47& figure) {
+    const auto plot_of = [&](Effect effect, bool of_targets) {
+        Plot plot{effect_name(effect),
+                  {axis_label(effect),
+                   effect_value(effect, 0),
+                   effect_value(effect, 1)},
+                  {"% in the top 1 %", 0, 100},
+                  {}};
+        for (const DistortionPoint& point : figure.points) {
+            if (point.effect != effect || (point.query == "target") != of_targets) continue;
+            const std::string name =
+                of_targets
+                    ? metric_label(point.name, point.profile)
+                    : point.query + " query, " + metric_label(point.name, point.profile);
+            auto series = std::ranges::find(plot.series, name, &PlotSeries::name);
+            if (series == plot.series.end()) {
+                plot.series.push_back(
+                    {name, metric_style(point.name, point.profile), {}, true, !of_targets});
+                series = plot.series.end() - 1;
+            }
+            series->points.push_back(rate_point(point.value, point.summary.top_1_percent));
+        }
+        return plot;
+    };
+    std::string html = paragraph(
+        "The percentage of queries whose target is in the top 1 % of the database, as the "
+        "distortion grows. Upper row: the targets themselves are distorted, under every "
+        "metric. Lower row: simulated scanned and painted queries are distorted, under L^q "
+        "with the profile that is meant for them; the bands are 95 % intervals.");
+    for (const bool of_targets : {true, false}) {
+        std::vector<Plot> plots;
+        std::vector<std::string> drawings;
+        for (const Effect effect : kEffects) plots.push_back(plot_of(effect, of_targets));
+        for (const Plot& plot : plots) drawings.push_back(to_svg(plot));
+        html += panels(drawings) + legend(plots);
+    }
+    return html;
 }
 
 }  // namespace haarmony::eval

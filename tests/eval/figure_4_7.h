@@ -31,6 +31,9 @@ inline constexpr std::array kEffects = {Effect::kScale,
                                         Effect::kAll};
 [[nodiscard]] std::string effect_name(Effect effect);
 
+// What the figure's axis says.
+[[nodiscard]] std::string axis_label(Effect effect);
+
 // The value on the figure's axis at a strength in [0, 1]; for kAll the strength itself.
 [[nodiscard]] double effect_value(Effect effect, double strength);
 

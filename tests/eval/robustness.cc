@@ -1,10 +1,13 @@
 #include "tests/eval/robustness.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "tests/eval/distortions.h"
+#include "tests/eval/metric_style.h"
+#include "tests/eval/page.h"
 #include "tests/eval/rank_table.h"
 
 namespace haarmony::eval {
@@ -86,6 +89,55 @@ CsvTable to_csv(const std::vector<RobustnessRow>& rows) {
                              row.summary));
     }
     return table;
+}
+
+std::string to_html(const Robustness& robustness) {
+    const auto table_of = [&](const std::function<std::string(const RankSummary&)>& cell) {
+        std::vector<std::string> header{"distortion", "option"};
+        for (const RobustnessRow& row : robustness.rows) {
+            if (row.distortion != robustness.rows.front().distortion || !row.option.empty())
+                break;
+            header.push_back(metric_label(row.name, row.profile));
+        }
+        HtmlTable table(header, 2);
+        std::vector<std::string> cells;
+        for (std::size_t i = 0; i < robustness.rows.size(); ++i) {
+            const RobustnessRow& row = robustness.rows[i];
+            if (cells.empty()) cells = {row.distortion, row.option};
+            cells.push_back(cell(row.summary));
+            const bool ends = i + 1 == robustness.rows.size() ||
+                              robustness.rows[i + 1].distortion != row.distortion ||
+                              robustness.rows[i + 1].option != row.option;
+            if (!ends) continue;
+            cells.resize(header.size());  // the rivals have no options
+            table.add(cells);
+            cells.clear();
+        }
+        return table.html();
+    };
+    return paragraph(
+               "Rank 1 and top 20 in per cent; the intervals, the top 1 % and the mean "
+               "reciprocal ranks are in robustness.csv. An option is one of the service's, "
+               "meant for the distortion.") +
+           table_of([](const RankSummary& summary) {
+               return percent(summary.first) + " / " + percent(summary.top_20);
+           });
+}
+
+std::string to_html(const Control& control) {
+    HtmlTable table(
+        {"metric", "rank 1, %", "top 20, %", "median rank", "chance, top 20, %"}, 1);
+    for (const RobustnessRow& row : control.rows) {
+        table.add({metric_label(row.name, row.profile),
+                   percent(row.summary.first),
+                   percent_with_interval(row.summary.top_20),
+                   std::to_string(row.summary.median),
+                   number(100 * control.chance_top_20, 1)});
+    }
+    return paragraph(
+               "Undistorted pictures as queries, each with the target of another one: an "
+               "evaluation that finds these better than chance finds everything.") +
+           table.html();
 }
 
 }  // namespace haarmony::eval

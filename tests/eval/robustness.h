@@ -42,5 +42,7 @@ struct Control {
                                       const MetricPanel& panel);
 
 [[nodiscard]] CsvTable to_csv(const std::vector<RobustnessRow>& rows);
+[[nodiscard]] std::string to_html(const Robustness& robustness);
+[[nodiscard]] std::string to_html(const Control& control);
 
 }  // namespace haarmony::eval

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "tests/eval/metric_style.h"
+#include "tests/eval/page.h"
 #include "tests/eval/ranking.h"
 #include "tests/eval/statistics.h"
 
@@ -135,6 +137,22 @@ CsvTable to_csv(const Table42& table) {
                  row.mean_ms});
     }
     return csv;
+}
+
+std::string to_html(const Table42& table) {
+    HtmlTable html({"metric", "pictures", "queries", "median, ms", "mean, ms"}, 1);
+    for (const QueryTime& row : table.rows) {
+        html.add({metric_label(row.name, row.profile),
+                  std::to_string(row.pictures),
+                  std::to_string(row.queries),
+                  number(row.median_ms, 3),
+                  number(row.mean_ms, 3)});
+    }
+    return paragraph(
+               "From a 128 x 128 query picture to the 20 closest, on one thread, with what "
+               "can be prepared of the database prepared. A database larger than the folder "
+               "holds its pictures several times.") +
+           html.html();
 }
 
 }  // namespace haarmony::eval
