@@ -125,7 +125,8 @@ std::string to_html(const DatabaseSize& measured) {
     for (const auto& [kind, spread] : measured.spread)
         table.add({query_kind_name(kind), number(spread, 1)});
     return paragraph(
-               "Each database holds the pictures of the one before and more; the smallest "
+               "Each database holds the pictures of the one before and more; the "
+               "smallest "
                "holds little more than the targets, so that its top 1 % is one picture. "
                "The dissertation found differences of at most 2 %.") +
            panels({to_svg(plot), legend({plot}) + table.html()});

@@ -181,31 +181,36 @@ CsvTable to_csv(const Figure47& figure) {
 std::string to_html(const Figure47& figure) {
     const auto plot_of = [&](Effect effect, bool of_targets) {
         Plot plot{effect_name(effect),
-                  {axis_label(effect),
-                   effect_value(effect, 0),
-                   effect_value(effect, 1)},
+                  {axis_label(effect), effect_value(effect, 0), effect_value(effect, 1)},
                   {"% in the top 1 %", 0, 100},
                   {}};
         for (const DistortionPoint& point : figure.points) {
-            if (point.effect != effect || (point.query == "target") != of_targets) continue;
+            if (point.effect != effect || (point.query == "target") != of_targets)
+                continue;
             const std::string name =
                 of_targets
                     ? metric_label(point.name, point.profile)
                     : point.query + " query, " + metric_label(point.name, point.profile);
             auto series = std::ranges::find(plot.series, name, &PlotSeries::name);
             if (series == plot.series.end()) {
-                plot.series.push_back(
-                    {name, metric_style(point.name, point.profile), {}, true, !of_targets});
+                plot.series.push_back({name,
+                                       metric_style(point.name, point.profile),
+                                       {},
+                                       true,
+                                       !of_targets});
                 series = plot.series.end() - 1;
             }
-            series->points.push_back(rate_point(point.value, point.summary.top_1_percent));
+            series->points.push_back(
+                rate_point(point.value, point.summary.top_1_percent));
         }
         return plot;
     };
     std::string html = paragraph(
-        "The percentage of queries whose target is in the top 1 % of the database, as the "
+        "The percentage of queries whose target is in the top 1 % of the database, as "
+        "the "
         "distortion grows. Upper row: the targets themselves are distorted, under every "
-        "metric. Lower row: simulated scanned and painted queries are distorted, under L^q "
+        "metric. Lower row: simulated scanned and painted queries are distorted, under "
+        "L^q "
         "with the profile that is meant for them; the bands are 95 % intervals.");
     for (const bool of_targets : {true, false}) {
         std::vector<Plot> plots;

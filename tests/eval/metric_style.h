@@ -10,7 +10,8 @@
 namespace haarmony::eval {
 
 // "L^q, m=40, scanned" or "L1, 128x128".
-[[nodiscard]] std::string metric_label(const MetricName& name, const std::string& profile);
+[[nodiscard]] std::string metric_label(const MetricName& name,
+                                       const std::string& profile);
 
 [[nodiscard]] PlotStyle metric_style(const MetricName& name, const std::string& profile);
 

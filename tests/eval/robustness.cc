@@ -92,32 +92,35 @@ CsvTable to_csv(const std::vector<RobustnessRow>& rows) {
 }
 
 std::string to_html(const Robustness& robustness) {
-    const auto table_of = [&](const std::function<std::string(const RankSummary&)>& cell) {
-        std::vector<std::string> header{"distortion", "option"};
-        for (const RobustnessRow& row : robustness.rows) {
-            if (row.distortion != robustness.rows.front().distortion || !row.option.empty())
-                break;
-            header.push_back(metric_label(row.name, row.profile));
-        }
-        HtmlTable table(header, 2);
-        std::vector<std::string> cells;
-        for (std::size_t i = 0; i < robustness.rows.size(); ++i) {
-            const RobustnessRow& row = robustness.rows[i];
-            if (cells.empty()) cells = {row.distortion, row.option};
-            cells.push_back(cell(row.summary));
-            const bool ends = i + 1 == robustness.rows.size() ||
-                              robustness.rows[i + 1].distortion != row.distortion ||
-                              robustness.rows[i + 1].option != row.option;
-            if (!ends) continue;
-            cells.resize(header.size());  // the rivals have no options
-            table.add(cells);
-            cells.clear();
-        }
-        return table.html();
-    };
+    const auto table_of =
+        [&](const std::function<std::string(const RankSummary&)>& cell) {
+            std::vector<std::string> header{"distortion", "option"};
+            for (const RobustnessRow& row : robustness.rows) {
+                if (row.distortion != robustness.rows.front().distortion ||
+                    !row.option.empty())
+                    break;
+                header.push_back(metric_label(row.name, row.profile));
+            }
+            HtmlTable table(header, 2);
+            std::vector<std::string> cells;
+            for (std::size_t i = 0; i < robustness.rows.size(); ++i) {
+                const RobustnessRow& row = robustness.rows[i];
+                if (cells.empty()) cells = {row.distortion, row.option};
+                cells.push_back(cell(row.summary));
+                const bool ends = i + 1 == robustness.rows.size() ||
+                                  robustness.rows[i + 1].distortion != row.distortion ||
+                                  robustness.rows[i + 1].option != row.option;
+                if (!ends) continue;
+                cells.resize(header.size());  // the rivals have no options
+                table.add(cells);
+                cells.clear();
+            }
+            return table.html();
+        };
     return paragraph(
                "Rank 1 and top 20 in per cent; the intervals, the top 1 % and the mean "
-               "reciprocal ranks are in robustness.csv. An option is one of the service's, "
+               "reciprocal ranks are in robustness.csv. An option is one of the "
+               "service's, "
                "meant for the distortion.") +
            table_of([](const RankSummary& summary) {
                return percent(summary.first) + " / " + percent(summary.top_20);

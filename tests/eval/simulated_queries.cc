@@ -19,6 +19,23 @@ RgbPicture misregister(const RgbPicture& picture, double share, Random& random) 
     return translate(picture, dx, dy);
 }
 
+// To the right by dx, down by dy; what stood at the edge fills what is left free.
+RgbPicture moved_by(const RgbPicture& picture, int dx, int dy) {
+    RgbPicture result{picture.width, picture.height, {}};
+    result.rgb.reserve(picture.rgb.size());
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const int from_x = std::clamp(x - dx, 0, picture.width - 1);
+            const int from_y = std::clamp(y - dy, 0, picture.height - 1);
+            const auto at =
+                picture.rgb.begin() +
+                (static_cast<std::ptrdiff_t>(from_y) * picture.width + from_x) * 3;
+            result.rgb.insert(result.rgb.end(), at, at + 3);
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 QueryPicture opaque(RgbPicture picture) {
@@ -43,11 +60,16 @@ RgbPicture simulate_scan(const RgbPicture& picture, Random& random) {
 
 RgbPicture simulate_painting(const RgbPicture& picture, int grid, Random& random) {
     assert(grid >= 2);
-    const RgbPicture moved = misregister(picture, 0.03, random);
-    const RgbPicture vivid = saturate(resize(moved, grid, grid), 1.3);
+    const RgbPicture vivid = saturate(resize(picture, grid, grid), 1.3);
     std::array<double, 3> bias{};
     for (double& channel : bias) channel = random.between(-0.06, 0.06);
-    return mosaic(posterize(shift_colours(vivid, bias), 5), grid);
+    const RgbPicture squares = mosaic(posterize(shift_colours(vivid, bias), 5), grid);
+    const auto off = [&] {
+        return static_cast<int>(std::lround(random.between(-0.03, 0.03) * squares.width));
+    };
+    const int dx = off();
+    const int dy = off();
+    return moved_by(squares, dx, dy);
 }
 
 RgbPicture simulate_painting(const RgbPicture& picture, Random& random) {

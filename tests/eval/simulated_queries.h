@@ -46,8 +46,9 @@ enum class QueryKind { kScanned, kPainted, kHalfPainted };
 // and 0.85 times as bright, with noise of 2 %.
 [[nodiscard]] RgbPicture simulate_scan(const RgbPicture& picture, Random& random);
 
-// Moved by up to 3 % a side, as `grid` x `grid` flat squares, 1.3 times as vivid, each
-// channel off by up to 6 % and of five levels. Requires: grid >= 2.
+// `grid` x `grid` flat squares, 1.3 times as vivid, each channel off by up to 6 % and of five
+// levels; then all of it moved by up to 3 % a side, so that no edge lies where a wavelet
+// changes its sign: a hand does not know where that is. Requires: grid >= 2.
 [[nodiscard]] RgbPicture simulate_painting(const RgbPicture& picture,
                                            int grid,
                                            Random& random);

@@ -149,8 +149,10 @@ std::string to_html(const Table42& table) {
                   number(row.mean_ms, 3)});
     }
     return paragraph(
-               "From a 128 x 128 query picture to the 20 closest, on one thread, with what "
-               "can be prepared of the database prepared. A database larger than the folder "
+               "From a 128 x 128 query picture to the 20 closest, on one thread, with "
+               "what "
+               "can be prepared of the database prepared. A database larger than the "
+               "folder "
                "holds its pictures several times.") +
            html.html();
 }
