@@ -15,6 +15,9 @@ struct InverseMap {
     double dx = 0, dy = 0;
 };
 
+// Of a value in [0, 255], which rounds to the nearest byte.
+std::uint8_t to_byte(double value) { return static_cast<std::uint8_t>(value + 0.5); }
+
 RgbPicture warp(const RgbPicture& picture, const InverseMap& map) {
     const std::array<double, 3> outside = average_colour(picture);
     const double centre_x = picture.width / 2.0;
@@ -37,13 +40,18 @@ RgbPicture warp(const RgbPicture& picture, const InverseMap& map) {
             const int top = static_cast<int>(std::floor(from_y));
             const double right_share = from_x - left;
             const double lower_share = from_y - top;
+            if (left < -1 || top < -1 || left >= picture.width || top >= picture.height) {
+                for (const double channel : outside)
+                    result.rgb.push_back(to_byte(channel));
+                continue;
+            }
             for (std::size_t c = 0; c < 3; ++c) {
                 const double upper = sample(left, top, c) * (1 - right_share) +
                                      sample(left + 1, top, c) * right_share;
                 const double lower = sample(left, top + 1, c) * (1 - right_share) +
                                      sample(left + 1, top + 1, c) * right_share;
-                result.rgb.push_back(static_cast<std::uint8_t>(
-                    std::lround(upper * (1 - lower_share) + lower * lower_share)));
+                result.rgb.push_back(
+                    to_byte(upper * (1 - lower_share) + lower * lower_share));
             }
         }
     }

@@ -47,7 +47,7 @@ Result<Experiment> Experiment::prepare(const PictureSource& source,
                                        std::uint64_t seed,
                                        int queries,
                                        Executor& executor) {
-    assert(queries >= 1);
+    assert(queries >= 1 && database.size() >= 2);
     Experiment experiment;
     experiment.database_ = &database;
     experiment.executor_ = &executor;
@@ -61,14 +61,15 @@ Result<Experiment> Experiment::prepare(const PictureSource& source,
     };
     experiment.evaluation_ = first(std::min<std::size_t>(queries, pictures));
     experiment.distorted_ = first(std::min<std::size_t>(kDistortedPictures, pictures));
-    const std::size_t training =
-        std::clamp<std::size_t>(pictures / 2, 1, kTrainingQueries);
-    experiment.fitting_.assign(order.rbegin(), order.rbegin() + std::ptrdiff_t(training));
-    const std::size_t selected = std::min(training, pictures - training);
-    experiment.selection_.assign(order.rbegin() + std::ptrdiff_t(training),
-                                 order.rbegin() + std::ptrdiff_t(training + selected));
+    const std::size_t fitted = std::min<std::size_t>(pictures / 2, kFittingQueries);
+    const std::size_t selected =
+        std::min<std::size_t>(pictures - fitted, kSelectionQueries);
+    const auto last = order.rbegin();
+    experiment.fitting_.assign(last, last + std::ptrdiff_t(fitted));
+    experiment.selection_.assign(last + std::ptrdiff_t(fitted),
+                                 last + std::ptrdiff_t(fitted + selected));
     experiment.training_overlaps_ =
-        experiment.evaluation_.size() + training + selected > pictures;
+        experiment.evaluation_.size() + fitted + selected > pictures;
 
     std::set<std::size_t> wanted;
     for (const auto* set : {&experiment.evaluation_,

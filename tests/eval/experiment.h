@@ -21,14 +21,16 @@
 
 namespace haarmony::eval {
 
-inline constexpr int kTrainingQueries = 85;
+// The trainer keeps a tenth of its pairs back for itself: 85 are left for the weights.
+inline constexpr int kFittingQueries = 94;
+inline constexpr int kSelectionQueries = 85;
 inline constexpr int kDistortedPictures = 100;
 // Query pictures are no larger: every metric looks at 128 x 128 averages.
 inline constexpr int kQuerySide = 256;
 
 class Experiment {
   public:
-    // Requires: queries >= 1. Errors: those of the source, for a picture that could be read
+    // Requires: queries >= 1, two pictures at least. Errors: those of the source, for a picture that could be read
     // a moment ago.
     [[nodiscard]] static Result<Experiment> prepare(const PictureSource& source,
                                                     const Database& database,

@@ -34,14 +34,29 @@ std::vector<Column> columns_of(const MetricPanel& panel) {
     return columns;
 }
 
-RgbPicture simulated(const std::string& query, const RgbPicture& picture, Random random) {
-    return query == "scanned" ? simulate_scan(picture, random)
-                              : simulate_painting(picture, random);
+// The simulated queries for one picture, one a profile of the panel.
+struct Originals {
+    std::vector<RgbPicture> queries;
+};
+
+Originals originals_of(const Experiment& experiment,
+                       const MetricPanel& panel,
+                       std::size_t target) {
+    Originals originals;
+    for (const image::Profile& profile : panel.profiles()) {
+        Random random = experiment.random(profile.name, target);
+        const RgbPicture& picture = experiment.picture(target);
+        originals.queries.push_back(profile.name == "scanned"
+                                        ? simulate_scan(picture, random)
+                                        : simulate_painting(picture, random));
+    }
+    return originals;
 }
 
 // The target's rank in each column.
 Ranks ranks_at(const Experiment& experiment,
                const MetricPanel& panel,
+               const Originals& originals,
                Effect effect,
                double strength,
                std::size_t target) {
@@ -49,13 +64,11 @@ Ranks ranks_at(const Experiment& experiment,
         Random random = experiment.random(effect_name(effect), target);
         return distort(picture, effect, strength, random);
     };
-    const RgbPicture& picture = experiment.picture(target);
-    Ranks ranks = panel.ranks(distorted(picture).view(), target);
-    for (const image::Profile& profile : panel.profiles()) {
-        const RgbPicture query = distorted(
-            simulated(profile.name, picture, experiment.random(profile.name, target)));
-        ranks.push_back(
-            panel.search().rank(image::make_signature(query.view()), profile, target));
+    Ranks ranks = panel.ranks(distorted(experiment.picture(target)).view(), target);
+    for (std::size_t i = 0; i < panel.profiles().size(); ++i) {
+        const RgbPicture query = distorted(originals.queries[i]);
+        ranks.push_back(panel.search().rank(
+            image::make_signature(query.view()), panel.profiles()[i], target));
     }
     return ranks;
 }
@@ -141,12 +154,17 @@ Figure47 measure_figure_4_7(const Experiment& experiment,
     Figure47 figure;
     const std::vector<Column> columns = columns_of(panel);
     const std::vector<std::size_t>& targets = experiment.distorted();
+    std::vector<Originals> originals(targets.size());
+    experiment.executor().parallel_for(targets.size(), [&](std::size_t i) {
+        originals[i] = originals_of(experiment, panel, targets[i]);
+    });
     for (const Effect effect : kEffects) {
         for (int step = 0; step < steps; ++step) {
             const double strength = static_cast<double>(step) / (steps - 1);
             std::vector<Ranks> by_query(targets.size());
             experiment.executor().parallel_for(targets.size(), [&](std::size_t i) {
-                by_query[i] = ranks_at(experiment, panel, effect, strength, targets[i]);
+                by_query[i] = ranks_at(
+                    experiment, panel, originals[i], effect, strength, targets[i]);
             });
             for (std::size_t c = 0; c < columns.size(); ++c) {
                 Ranks ranks;

@@ -7,6 +7,7 @@
 #include "tests/eval/database.h"
 #include "tests/eval/database_size.h"
 #include "tests/eval/experiment.h"
+#include "tests/eval/figure_4_5.h"
 #include "tests/eval/figure_4_6.h"
 #include "tests/eval/figure_4_7.h"
 #include "tests/eval/page.h"
@@ -58,9 +59,12 @@ Result<std::vector<OutputFile>> make_figures(
     Executor& executor,
     const std::function<void(const std::string&)>& progress) {
     progress("reading " + std::to_string(source.names.size()) + " files");
-    const Result<Database> database =
-        make_database(source, {image::SignatureKind{}}, executor);
+    const Result<Database> database = make_database(source, all_kinds(), executor);
     if (!database) return database.error();
+    if (database->size() < 2) {
+        return Error{ErrorCode::kInvalidArgument,
+                     database->names.front() + " is the only picture; two are the least"};
+    }
     const Result<Experiment> experiment =
         Experiment::prepare(source, *database, options.seed, options.queries, executor);
     if (!experiment) return experiment.error();
@@ -74,6 +78,17 @@ Result<std::vector<OutputFile>> make_figures(
     const auto add = [&](const std::string& name, const CsvTable& table) {
         files.push_back({name, table.text()});
     };
+    progress("Figure 4.5");
+    std::vector<int> ms;
+    for (int m = options.m_step; m <= image::kMaxCoefficients; m += options.m_step)
+        ms.push_back(m);
+    const Result<Figure45> figure_4_5 = measure_figure_4_5(*experiment, ms);
+    if (!figure_4_5) return figure_4_5.error();
+    show("figure-4-5",
+         "Figure 4.5: colour space, decomposition and number of coefficients",
+         to_html(*figure_4_5));
+    add("figure_4_5.csv", to_csv(*figure_4_5));
+    add("winners.csv", winners_csv(*figure_4_5));
     progress("Figure 4.6");
     const Figure46 figure_4_6 = measure_figure_4_6(*experiment, panel);
     show("figure-4-6", "Figure 4.6: L^q, L1, L2 and the histogram", to_html(figure_4_6));
@@ -100,6 +115,7 @@ Result<std::vector<OutputFile>> make_figures(
     const Table42 table_4_2 = measure_table_4_2(*experiment, small, large);
     show("table-4-2", "Table 4.2: the time of a query", to_html(table_4_2));
     add("table_4_2.csv", to_csv(table_4_2));
+    show("winners", "Which combination wins", winners_html(*figure_4_5));
     files.insert(files.begin(),
                  {"index.html",
                   page("Searching by pictures: the evaluation",

@@ -19,7 +19,8 @@ namespace haarmony::eval {
 struct FiguresOptions {
     std::uint64_t seed = 1;
     int queries = 150;
-    int steps = 11;  // strengths of each distortion of Figure 4.7
+    int m_step = 10;  // of Figure 4.5: m = m_step, 2 m_step, ... 100
+    int steps = 11;   // strengths of each distortion of Figure 4.7
 };
 
 struct OutputFile {
@@ -28,7 +29,7 @@ struct OutputFile {
 };
 
 // The files: index.html and the tables as CSV. `progress` hears one line for each part.
-// Requires: queries >= 1, steps >= 2.
+// Requires: queries >= 1, 1 <= m_step <= 100, steps >= 2.
 [[nodiscard]] Result<std::vector<OutputFile>> make_figures(
     const PictureSource& source,
     const FiguresOptions& options,
