@@ -42,6 +42,7 @@ class WaveletSearch {
 
     [[nodiscard]] const image::SignatureKind& kind() const { return kind_; }
     [[nodiscard]] const image::IndexSnapshot& snapshot() const { return *snapshot_; }
+    [[nodiscard]] int pictures() const { return pictures_; }
 
     // Every picture of the database, best first. Requires: profile.kind == kind().
     [[nodiscard]] std::vector<image::Match> order(const image::Signature& query,

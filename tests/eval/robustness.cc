@@ -9,11 +9,19 @@
 #include "tests/eval/metric_style.h"
 #include "tests/eval/page.h"
 #include "tests/eval/rank_table.h"
+#include "tests/eval/search_options.h"
 
 namespace haarmony::eval {
 namespace {
 
 using Ranks = std::vector<std::int64_t>;
+
+QueryPicture distorted(const Experiment& experiment,
+                       const Distortion& distortion,
+                       std::size_t target) {
+    Random random = experiment.random(distortion.name, target);
+    return distortion.apply(experiment.picture(target), random);
+}
 
 // ranks_of(query number) for each evaluation query, in parallel; turned into one list of
 // ranks for each column.
@@ -30,6 +38,35 @@ std::vector<Ranks> by_column(const Experiment& experiment,
         for (std::size_t c = 0; c < columns; ++c) result[c].push_back(ranks[c]);
     }
     return result;
+}
+
+// The rows of one distortion under one option, one a profile.
+std::vector<RobustnessRow> option_rows(const Experiment& experiment,
+                                       const MetricPanel& panel,
+                                       const Distortion& distortion,
+                                       const SearchOption& option) {
+    const std::vector<std::size_t>& targets = experiment.evaluation();
+    std::vector<RobustnessRow> rows;
+    auto ranks = by_column(experiment, panel.profiles().size(), [&](std::size_t i) {
+        const QueryPicture query = distorted(experiment, distortion, targets[i]);
+        Ranks of_query;
+        for (const image::Profile& profile : panel.profiles()) {
+            of_query.push_back(
+                rank_with(option, panel.search(), query.view(), profile, targets[i]));
+        }
+        return of_query;
+    });
+    for (std::size_t p = 0; p < ranks.size(); ++p) {
+        const image::Profile& profile = panel.profiles()[p];
+        const RankSummary summary = summarize(ranks[p], experiment.database().size());
+        rows.push_back({distortion.name,
+                        option.name,
+                        wavelet_name(profile),
+                        profile.name,
+                        std::move(ranks[p]),
+                        summary});
+    }
+    return rows;
 }
 
 std::vector<RobustnessRow> panel_rows(const std::string& distortion,
@@ -52,15 +89,21 @@ Robustness measure_robustness(const Experiment& experiment, const MetricPanel& p
     const std::vector<std::size_t>& targets = experiment.evaluation();
     for (const Distortion& distortion : distortions()) {
         auto ranks = by_column(experiment, panel.columns().size(), [&](std::size_t i) {
-            Random random = experiment.random(distortion.name, targets[i]);
-            const QueryPicture query =
-                distortion.apply(experiment.picture(targets[i]), random);
+            const QueryPicture query = distorted(experiment, distortion, targets[i]);
             return panel.ranks(query.view(), targets[i]);
         });
         std::ranges::move(
             panel_rows(
                 distortion.name, panel, std::move(ranks), experiment.database().size()),
             std::back_inserter(robustness.rows));
+        for (const SearchOption& option : search_options()) {
+            if (std::ranges::find(option.distortions, distortion.name) ==
+                option.distortions.end()) {
+                continue;
+            }
+            std::ranges::move(option_rows(experiment, panel, distortion, option),
+                              std::back_inserter(robustness.rows));
+        }
     }
     return robustness;
 }
