@@ -92,6 +92,8 @@ std::vector<Distortion> make_distortions() {
         row("painted 8 x 8", [](P p, R r) { return simulate_painting(p, 8, r); }),
         row("painted 12 x 12", [](P p, R r) { return simulate_painting(p, 12, r); }),
         {"half painted 8 x 8", [](P p, R r) { return simulate_half_painting(p, 8, r); }},
+        row("half painted 8 x 8, rest mean",
+            [](P p, R r) { return fill_with_mean(simulate_half_painting(p, 8, r)); }),
     };
 }
 
@@ -164,6 +166,27 @@ RgbPicture compress(const RgbPicture& picture, int quality) {
                    raster->height,
                    raster->channels,
                    static_cast<std::ptrdiff_t>(raster->row_bytes())});
+}
+
+RgbPicture fill_with_mean(const QueryPicture& picture) {
+    assert(picture.channels == 4);
+    std::array<double, 4> sum{};
+    for (std::size_t at = 0; at < picture.pixels.size(); at += 4) {
+        const double alpha = picture.pixels[at + 3];
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += alpha * picture.pixels[at + c];
+        sum[3] += alpha;
+    }
+    RgbPicture result{picture.width, picture.height, {}};
+    result.rgb.reserve(picture.pixels.size() / 4 * 3);
+    for (std::size_t at = 0; at < picture.pixels.size(); at += 4) {
+        const double alpha = picture.pixels[at + 3] / 255.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double mean = sum[3] > 0 ? sum[c] / sum[3] : 0;
+            result.rgb.push_back(static_cast<std::uint8_t>(
+                std::lround(alpha * picture.pixels[at + c] + (1 - alpha) * mean)));
+        }
+    }
+    return result;
 }
 
 RgbPicture random_colour_shift(const RgbPicture& picture,

@@ -41,6 +41,10 @@ struct Distortion {
 // Through JPEG of that quality and back.
 [[nodiscard]] RgbPicture compress(const RgbPicture& picture, int quality);
 
+// What is transparent filled with the mean colour of what is not: what a search does that
+// knows of no mask. Requires: four channels.
+[[nodiscard]] RgbPicture fill_with_mean(const QueryPicture& picture);
+
 // A step of length `distance` in a random direction of the colour cube.
 [[nodiscard]] RgbPicture random_colour_shift(const RgbPicture& picture,
                                              double distance,

@@ -149,12 +149,11 @@ std::string to_html(const Figure46& figure) {
     }
     return paragraph(
                "The percentage of queries whose target is in the top x % of the "
-               "database. "
-               "The band is the 95 % interval of L^q under the profile that is meant for "
+               "database. The band is the 95 % interval of L^q under the profile that is "
+               "meant for "
                "the kind of query (in bold in the table). Painting from memory cannot be "
-               "simulated; half paintings take its place. What is transparent there "
-               "counts "
-               "as the mean of what is painted, for every metric.") +
+               "simulated; half paintings take its place. What is transparent there is "
+               "filled as the search fills it, for every metric.") +
            panels(drawings) + legend(plots) + table.html();
 }
 

@@ -80,7 +80,7 @@ MetricName rival_name(Rival rival) {
 
 RivalFeatures describe_rivals(const ImageView& picture) {
     const auto planes = std::make_unique<image::ColorPlanes>();
-    image::area_average(picture, *planes);
+    (void)image::area_average(picture, *planes);
     RivalFeatures features;
     features.square.resize(std::size_t{image::kCoefficientCount} * 3);
     for (int y = 0; y < image::kSide; ++y) {

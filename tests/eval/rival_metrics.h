@@ -39,8 +39,7 @@ struct MetricName {
 };
 [[nodiscard]] MetricName rival_name(Rival rival);
 
-// Of a picture of any size; what is transparent counts as the mean of what is not, as it
-// does for signatures.
+// Of a picture of any size; what is transparent is filled as it is for signatures.
 [[nodiscard]] RivalFeatures describe_rivals(const ImageView& picture);
 
 [[nodiscard]] std::uint64_t distance(Rival rival,

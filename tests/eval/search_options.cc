@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <span>
 
+#include "engine/image/autocrop.h"
 #include "engine/image/best_of.h"
 #include "engine/image/symmetry.h"
+#include "engine/image/window.h"
 
 namespace haarmony::eval {
 namespace {
@@ -33,12 +35,47 @@ std::vector<image::Query> all_orientations(const ImageView& picture,
     return turned(picture, profile, image::kSymmetries);
 }
 
+// The picture and, where it has borders, what is within them.
+std::vector<image::Query> within_borders(const ImageView& picture,
+                                         const image::Profile& profile) {
+    const auto query_of = [&](const ImageView& view) {
+        return image::make_query(
+            image::make_signature(view, profile.kind), profile, profile.m);
+    };
+    std::vector<image::Query> queries{query_of(picture)};
+    if (const auto box = image::content_box(picture))
+        queries.push_back(query_of(image::cropped(picture, *box)));
+    return queries;
+}
+
+std::vector<image::Query> parts_of_more(const ImageView& picture,
+                                        const image::Profile& profile) {
+    std::vector<image::Query> queries;
+    for (const image::WindowSignature& window :
+         image::window_signatures(picture, profile.kind)) {
+        const image::Query query =
+            image::make_query(window.signature, profile, profile.m);
+        queries.push_back(
+            queries.empty() ? query
+                            : image::with_weight_sum(query, queries.front().weight_sum));
+    }
+    return queries;
+}
+
 }  // namespace
 
 const std::vector<SearchOption>& search_options() {
     static const std::vector<SearchOption> options = {
         {"orientations=mirror", {"mirror"}, mirrored},
         {"orientations=all", {"identity", "mirror", "quarter turn"}, all_orientations},
+        {"autocrop", {"identity", "white border 10 %", "letterbox"}, within_borders},
+        {"partial",
+         {"identity",
+          "crop 10 % a side",
+          "crop 20 % a side",
+          "translation 10 %",
+          "half painted 8 x 8"},
+         parts_of_more},
     };
     return options;
 }

@@ -100,6 +100,16 @@ TEST(Distortions, JpegKeepsTheSizeAndRoughlyTheColours) {
     EXPECT_LT(sum / static_cast<double>(picture.rgb.size()), 25);
 }
 
+TEST(Distortions, WhatIsTransparentTakesTheMeanOfTheRest) {
+    const QueryPicture picture{
+        4, 1, 4, {10, 20, 30, 255, 90, 60, 50, 255, 7, 7, 7, 0, 200, 0, 0, 0}};
+    EXPECT_EQ(
+        fill_with_mean(picture).rgb,
+        (std::vector<std::uint8_t>{10, 20, 30, 90, 60, 50, 50, 40, 40, 50, 40, 40}));
+    EXPECT_EQ(fill_with_mean({1, 1, 4, {9, 9, 9, 0}}).rgb,
+              (std::vector<std::uint8_t>{0, 0, 0}));
+}
+
 TEST(Distortions, AColourShiftHasTheLengthAskedFor) {
     const RgbPicture grey = flat(1, 1, 128, 128, 128);
     for (int seed = 0; seed < 20; ++seed) {

@@ -34,6 +34,20 @@ TEST_F(SearchOptions, MirroredAndTurnedPicturesAreFoundWithOrientations) {
     EXPECT_EQ(rank("orientations=all", turn(mirror(picture))), 1);
 }
 
+TEST_F(SearchOptions, FramedPicturesAreFoundWithAutocrop) {
+    const RgbPicture picture = generated_picture(5);
+    EXPECT_EQ(rank("autocrop", frame(picture, 0.1, 0.1, 255)), 1);
+    EXPECT_EQ(rank("autocrop", frame(picture, 0.3, 0.3, 0)), 1);
+    EXPECT_EQ(rank("autocrop", picture), 1);
+}
+
+TEST_F(SearchOptions, CutOutPartsAreFoundWithPartial) {
+    const RgbPicture picture = generated_picture(5);
+    EXPECT_EQ(rank("partial", picture), 1);
+    EXPECT_EQ(rank("partial", crop(picture, 0.1)), 1);
+    EXPECT_EQ(rank("partial", crop(picture, 0.2)), 1);
+}
+
 TEST_F(SearchOptions, EachIsMeantForRowsOfTheTable) {
     for (const SearchOption& each : search_options()) {
         EXPECT_FALSE(each.distortions.empty()) << each.name;
