@@ -81,7 +81,7 @@ json query_json(const SearchAnswer& answer, const QueryOptions& options) {
                {"m", answer.plan.m()},
                {"signature", image::signature_to_text(signature)},
                {"low_information", signature.low_information}};
-    if (!options.combined) return query;
+    if (!options.search.plan.combine) return query;
     json names = json::array();
     for (const image::Profile& profile : profiles) names.push_back(profile.name);
     query["combine"] = std::move(names);

@@ -68,8 +68,8 @@ std::vector<std::string> profile_names(Inputs& inputs) {
 }
 
 void read_profiles(const Context& context, Inputs& inputs, QueryOptions& options) {
-    options.combined = inputs.has("combine");
-    const std::string_view param = options.combined ? "combine" : "profile";
+    options.search.plan.combine = inputs.has("combine");
+    const std::string_view param = options.search.plan.combine ? "combine" : "profile";
     options.look.kinds.clear();
     for (const std::string& name : profile_names(inputs)) {
         auto profile = find_profile(context, inputs, param, name);

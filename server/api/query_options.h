@@ -17,7 +17,6 @@ namespace haarmony::server {
 struct QueryOptions {
     SearchOptions search;
     LookOptions look;  // in the kinds of all profiles
-    bool combined = false;
     bool explain = false;
     std::optional<nlohmann::json> seq;  // a number or a string, to be echoed
 };

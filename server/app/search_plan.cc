@@ -77,6 +77,7 @@ Result<SearchPlan> SearchPlan::make(const QueryPicture& picture,
                      "aspect_weight"};
     SearchPlan plan;
     plan.snapshots_ = snapshots;
+    plan.combine_ = options.combine || options.profiles.size() > 1;
     plan.combine_by_ = options.combine_by;
     plan.min_similarity_ = options.min_similarity;
     for (const image::Profile& profile : options.profiles) {
@@ -102,7 +103,7 @@ Result<SearchPlan> SearchPlan::make(const QueryPicture& picture,
 
 Candidates SearchPlan::best(int limit, const image::IdSet* only) const {
     assert(limit >= 1);
-    return metrics_.size() == 1 ? best_of_one(limit, only) : best_of_ranks(limit, only);
+    return combine_ ? best_of_ranks(limit, only) : best_of_one(limit, only);
 }
 
 std::vector<image::Way> SearchPlan::asked(const Metric& metric) const {

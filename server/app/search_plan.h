@@ -29,6 +29,7 @@ enum class Orientations { kNone, kMirror, kAll };
 
 struct PlanOptions {
     std::vector<image::Profile> profiles;  // at least one; more: their ranks are combined
+    bool combine = false;                  // say the rank under one profile, too
     image::CombineBy combine_by = image::CombineBy::kMean;
     std::optional<int> m;  // the profile's where absent
     Orientations orientations = Orientations::kNone;
@@ -89,6 +90,7 @@ class SearchPlan {
 
     Snapshots snapshots_;
     std::vector<Metric> metrics_;
+    bool combine_ = false;
     image::CombineBy combine_by_ = image::CombineBy::kMean;
     std::optional<double> min_similarity_;
 };
