@@ -2,6 +2,7 @@
 // page, so that both may live below a prefix of a proxy.
 
 import { KeyWanted, Overloaded, Refused, Unreachable } from './failures.js';
+import { optionsFor, parametersOf } from './search_options.js';
 
 /**
  * @typedef {object} Picture
@@ -13,7 +14,17 @@ import { KeyWanted, Overloaded, Refused, Unreachable } from './failures.js';
  * @property {string[]} [tags]
  * @property {Record<string, unknown>} [metadata]
  */
-/** @typedef {Picture & {rank: number, distance: number, similarity: number}} Match */
+/**
+ * @typedef {object} Finding how a picture was found
+ * @property {number} rank
+ * @property {number} distance
+ * @property {number} similarity
+ * @property {string} [orientation]
+ * @property {number} [combined_rank]
+ * @property {number} [probability]
+ * @property {import('./explanation.js').Explanation} [explain]
+ */
+/** @typedef {Picture & Finding} Match */
 /**
  * @typedef {object} Reply
  * @property {Match[]} matches
@@ -28,6 +39,15 @@ import { KeyWanted, Overloaded, Refused, Unreachable } from './failures.js';
  *   | {kind: 'file', file: File}
  *   | {kind: 'id', id: number}
  *   | {kind: 'signature', signature: string}} Source
+ */
+
+/**
+ * @typedef {object} Asking
+ * @property {string} profile
+ * @property {number} limit
+ * @property {number} [seq]
+ * @property {import('./search_options.js').Options} [options]
+ * @property {boolean} [explain]
  */
 
 /** Without Retry-After, an overloaded server is left alone for a moment. */
@@ -46,29 +66,33 @@ export class Api {
 
   /**
    * @param {Source} source
-   * @param {{profile: string, limit: number, seq: number}} options
-   * @param {AbortSignal} signal
+   * @param {Asking} asking
+   * @param {AbortSignal} [signal]
    * @returns {Promise<Reply>}
    */
-  async query(source, { profile, limit, seq }, signal) {
+  async query(source, { profile, limit, seq, options = {}, explain = false }, signal) {
     const fields = new URLSearchParams();
     if (source.kind === 'id') fields.set('id', String(source.id));
     if (source.kind === 'signature') fields.set('signature', source.signature);
     fields.set('profile', profile);
     fields.set('limit', String(limit));
-    fields.set('seq', String(seq));
+    if (seq !== undefined) fields.set('seq', String(seq));
+    for (const [name, value] of parametersOf(optionsFor(options, source.kind), profile)) {
+      fields.set(name, value);
+    }
+    if (explain) fields.set('explain', 'true');
     const address = `query?${fields}`;
     if (source.kind === 'painting') {
       const png = await source.png();
       const headers = { 'Content-Type': 'image/png' };
-      return this.#json(address, { method: 'POST', body: png, headers, signal });
+      return this.json(address, { method: 'POST', body: png, headers, signal });
     }
     if (source.kind === 'file') {
       const form = new FormData();
       form.set('file', source.file, source.file.name || 'picture');
-      return this.#json(address, { method: 'POST', body: form, signal });
+      return this.json(address, { method: 'POST', body: form, signal });
     }
-    return this.#json(address, { signal });
+    return this.json(address, { signal });
   }
 
   /**
@@ -79,7 +103,7 @@ export class Api {
   pictures(limit, cursor) {
     const fields = new URLSearchParams({ limit: String(limit) });
     if (cursor !== null) fields.set('cursor', cursor);
-    return this.#json(`images?${fields}`, {});
+    return this.json(`images?${fields}`, {});
   }
 
   /**
@@ -87,12 +111,12 @@ export class Api {
    * @returns {Promise<Picture>}
    */
   picture(id) {
-    return this.#json(`images/${id}`, {});
+    return this.json(`images/${id}`, {});
   }
 
   /** @returns {Promise<{images: number}>} */
   status() {
-    return this.#json('status', {});
+    return this.json('status', {});
   }
 
   /** Whether the server answers at all; needs no key. */
@@ -128,10 +152,12 @@ export class Api {
   }
 
   /**
+   * What the server answers there, of the shape that the caller knows.
    * @param {string} address
    * @param {RequestInit} options
+   * @returns {Promise<any>}
    */
-  async #json(address, options) {
+  async json(address, options) {
     const response = await this.#send(address, options);
     try {
       return await response.json();
@@ -139,6 +165,15 @@ export class Api {
       // The connection can break in the middle of an answer as well.
       throw new Unreachable(`the answer broke off: ${error}`);
     }
+  }
+
+  /**
+   * Asks for something to be done whose answer says nothing more.
+   * @param {string} address
+   * @param {RequestInit} options
+   */
+  async order(address, options) {
+    await this.#send(address, options);
   }
 
   /**
@@ -158,6 +193,16 @@ export class Api {
     if (response.ok) return response;
     throw await failureOf(response);
   }
+}
+
+/**
+ * A request that carries a JSON document.
+ * @param {string} method
+ * @param {unknown} document
+ * @returns {RequestInit}
+ */
+export function carrying(method, document) {
+  return { method, headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(document) };
 }
 
 /** @param {number} id */

@@ -3,7 +3,7 @@
 
 import { originalAddress, thumbnailAddress } from './api.js';
 import { byId, make } from './dom.js';
-import { decoded, nameOf, percent } from './wording.js';
+import { decoded, likely, nameOf, percent, turned } from './wording.js';
 
 /** @typedef {import('./api.js').Match} Match */
 
@@ -16,17 +16,27 @@ export class Details {
   #note = byId('details-note', HTMLElement);
   /** @type {Match[]} */ #matches = [];
   #index = 0;
+  #answer = byId('details-answer', HTMLButtonElement);
   #loader;
   #api;
+  #answers;
+  #why;
 
   /**
    * @param {import('./api.js').Api} api
    * @param {import('./pictures.js').PictureLoader} loader
    * @param {(match: Match) => void} like
+   * @param {{answers: import('./answers.js').Answers, why: import('./why.js').Why}} features
    */
-  constructor(api, loader, like) {
+  constructor(api, loader, like, { answers, why }) {
     this.#api = api;
     this.#loader = loader;
+    this.#answers = answers;
+    this.#why = why;
+    this.#answer.addEventListener('click', () => void answers.give(this.#match));
+    answers.addEventListener('change', () => {
+      if (this.#dialog.open) this.#showAnswer();
+    });
     byId('details-close', HTMLButtonElement).addEventListener('click', () => this.#dialog.close());
     byId('details-previous', HTMLButtonElement).addEventListener('click', () => this.#turn(-1));
     byId('details-next', HTMLButtonElement).addEventListener('click', () => this.#turn(1));
@@ -70,8 +80,18 @@ export class Details {
     this.#fill();
   }
 
+  #showAnswer() {
+    const given = this.#answers.given(this.#match);
+    this.#answer.hidden = !this.#answers.possible;
+    this.#answer.ariaDisabled = String(given); // it keeps the focus
+    byId('details-answer-text', HTMLElement).textContent = given ? 'Thank you, it is kept' : 'This is it';
+    byId('details-answer-note', HTMLElement).hidden = this.#answer.hidden;
+  }
+
   #fill() {
     const match = this.#match;
+    this.#showAnswer();
+    this.#why.about(match);
     byId('details-name', HTMLElement).textContent = nameOf(match);
     byId('details-facts', HTMLElement).replaceChildren(
       ...facts(match).map(([term, text]) =>
@@ -112,6 +132,13 @@ function facts(match) {
     ['Similarity', `${percent(match.similarity)}, rank ${match.rank}`],
     ['Distance', match.distance.toFixed(2)],
   ];
+  if (match.combined_rank !== undefined) {
+    known.push(['Combined rank', String(Math.round(match.combined_rank * 10) / 10)]);
+  }
+  if (match.probability !== undefined) {
+    known.push(['Probability to be the one', likely(match.probability)]);
+  }
+  if (turned(match.orientation) !== '') known.push(['Orientation', turned(match.orientation)]);
   if (match.width && match.height) known.push(['Size', `${match.width} × ${match.height} pixels`]);
   if (match.uri) known.push(['Address', decoded(match.uri)]);
   for (const [name, value] of Object.entries(match.metadata ?? {})) {

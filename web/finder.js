@@ -3,11 +3,13 @@
 
 import { KeyWanted, Refused, TimedOut, Unreachable } from './failures.js';
 import { Search } from './search.js';
+import { optionsFor } from './search_options.js';
 import { counted, nameOf } from './wording.js';
 
 /** @typedef {import('./api.js').Source} Source */
 /** @typedef {import('./api.js').Reply} Reply */
 /** @typedef {import('./journey.js').Visit} Visit */
+/** @typedef {import('./search_options.js').Options} Options */
 /**
  * @typedef {object} Asked what the page says about the query
  * @property {string} title
@@ -20,20 +22,22 @@ import { counted, nameOf } from './wording.js';
  * @property {boolean} settled false in the middle of a stroke
  * @property {Source} source
  * @property {string} profile
+ * @property {Options} options
  * @property {Asked} asked
  * @property {boolean} record whether the answer makes an entry in the history
  * @property {string | null} kept data: address of the painting behind a signature of ours
  */
 
 const kPainting = 'painting';
-const kResults = 20;
+export const kResults = 20;
 /** Side of the square that the painting is sent in: twice what a signature is made from would
     be wasted, half of it would blur it. */
 const kQuerySide = 160;
 /** For Back: enough to go on painting. */
 const kKeptSide = 480;
 
-export class Finder {
+/** 'change' tells that another answer, or none, is on the screen. */
+export class Finder extends EventTarget {
   #painting;
   #screens;
   #journey;
@@ -42,6 +46,8 @@ export class Finder {
   #search;
   #askForKey;
   /** @type {Query | null} */ #query = null;
+  /** The answer that is on the screen. @type {Reply | null} */ #reply = null;
+  /** As chosen last, or as the address says. @type {Options} */ #options = {};
   /** The profile for sketches and the one for pictures, as chosen last. */
   #profiles = { painting: 'painted', picture: 'scanned' };
 
@@ -57,6 +63,7 @@ export class Finder {
    * @param {() => void} parts.askForKey
    */
   constructor({ api, painting, screens, journey, notices, connection, clock, askForKey }) {
+    super();
     this.#painting = painting;
     this.#screens = screens;
     this.#journey = journey;
@@ -65,8 +72,8 @@ export class Finder {
     this.#askForKey = askForKey;
     /** @type {import('./search.js').SearchPort<Query, Reply>} */
     const port = {
-      send: ({ source, profile }, seq, signal) =>
-        api.query(source, { profile, limit: kResults, seq }, signal),
+      send: ({ source, profile, options }, seq, signal) =>
+        api.query(source, { profile, limit: kResults, seq, options }, signal),
       started: () => (screens.busy = true),
       answered: (query, reply) => this.#answered(query, reply),
       failed: (query, error) => this.#failed(query, error),
@@ -80,6 +87,16 @@ export class Finder {
     return this.#query;
   }
 
+  /** The answer on the screen, if it answers a query. */
+  get reply() {
+    return this.#query && this.#reply;
+  }
+
+  /** What the search on the screen compares by, or the next painting would. */
+  get profile() {
+    return this.#query?.profile ?? this.#profiles.painting;
+  }
+
   /** @param {boolean} settled false in the middle of a stroke */
   painting(settled) {
     const png = () => this.#painting.toPng(kQuerySide);
@@ -87,7 +104,8 @@ export class Finder {
     const profile = this.#profiles.painting;
     /** @type {Source} */
     const source = { kind: 'painting', png };
-    this.#submit({ topic: kPainting, settled, source, profile, asked, record: true, kept: null });
+    const options = this.#options;
+    this.#submit({ topic: kPainting, settled, source, profile, options, asked, record: true, kept: null });
   }
 
   /** @param {import('./api.js').Picture} picture */
@@ -115,25 +133,35 @@ export class Finder {
     const source = byId
       ? { kind: 'id', id: shared.id }
       : { kind: 'signature', signature: shared.signature };
+    const { profile, options = {} } = shared;
     const asked = {
       title: entry?.title ?? (byId ? `Like picture ${shared.id}` : 'A shared search'),
       preview: entry?.preview ?? null,
-      shared: entry ? null : sentenceFor(byId),
+      shared: options.partial ? kWholeSentence : entry ? null : sentenceFor(byId),
     };
+    this.#options = options;
     const topic = entry?.topic ?? (byId ? `id:${shared.id}` : 'shared');
     const kept = entry?.painting ?? null;
-    const { profile } = shared;
-    this.#submit({ topic, settled: true, source, profile, asked, record: false, kept });
+    this.#submit({ topic, settled: true, source, profile, options, asked, record: false, kept });
   }
 
   /**
-   * Compares again, otherwise.
+   * Compares again, otherwise; without a query, the next painting.
    * @param {string} profile
    */
   compareAs(profile) {
-    if (!this.#query) return;
-    this.#profiles[this.#query.topic === kPainting ? 'painting' : 'picture'] = profile;
-    this.#submit({ ...this.#query, profile, settled: true, record: true });
+    const paints = !this.#query || this.#query.topic === kPainting;
+    this.#profiles[paints ? 'painting' : 'picture'] = profile;
+    if (this.#query) this.#submit({ ...this.#query, profile, settled: true, record: true });
+  }
+
+  /**
+   * Searches again, with other options; without a query, the next time.
+   * @param {Options} options
+   */
+  narrow(options) {
+    this.#options = options;
+    if (this.#query) this.#submit({ ...this.#query, options, settled: true, record: true });
   }
 
   /** @returns {string} the painting as an entry of the history keeps it */
@@ -148,7 +176,9 @@ export class Finder {
   stop() {
     this.#search.stop();
     this.#query = null;
+    this.#reply = null;
     this.#screens.busy = false;
+    this.dispatchEvent(new Event('change'));
   }
 
   /**
@@ -158,7 +188,8 @@ export class Finder {
    */
   #pictureQuery(topic, source, asked) {
     const profile = this.#profiles.picture;
-    this.#submit({ topic, settled: true, source, profile, asked, record: true, kept: null });
+    const options = this.#options;
+    this.#submit({ topic, settled: true, source, profile, options, asked, record: true, kept: null });
   }
 
   /** @param {Query} query */
@@ -174,11 +205,15 @@ export class Finder {
   #answered(query, reply) {
     this.#connection.recover();
     this.#screens.busy = false;
-    this.#screens.count(reply.searched);
-    if (reply.searched === 0) return this.#screens.show('empty');
+    const { settled, record, source, asked, topic, profile, options, kept } = query;
+    // With a filter, what was searched is not what there is.
+    const filtered = options.text !== undefined || options.tags !== undefined;
+    if (!filtered) this.#screens.count(reply.searched);
+    if (reply.searched === 0 && !filtered) return this.#screens.show('empty');
+    this.#reply = reply;
     this.#screens.ask(query);
     this.#screens.answer(reply);
-    const { settled, record, source, asked, topic, profile, kept } = query;
+    this.dispatchEvent(new Event('change'));
     if (!settled) return;
     const [best] = reply.matches;
     this.#notices.announce(
@@ -188,8 +223,8 @@ export class Finder {
     if (!record) return;
     const shared =
       source.kind === 'id'
-        ? { id: source.id, profile }
-        : { signature: reply.query.signature, profile };
+        ? { id: source.id, profile, options: optionsFor(options, 'id') }
+        : { signature: reply.query.signature, profile, options };
     const painting = source.kind === 'painting' ? this.keep() : kept;
     this.#journey.record(shared, { topic, title: asked.title, preview: asked.preview, painting });
   }
@@ -212,6 +247,9 @@ export class Finder {
     }
   }
 }
+
+const kWholeSentence =
+  'This search was for a part of a picture, which an address cannot carry: here it is for the whole.';
 
 /** @param {boolean} byId */
 function sentenceFor(byId) {

@@ -2,9 +2,10 @@
 // address can be shared. The entries of this tab also keep what the address cannot say: the
 // painting itself, or the name of a file.
 
-import { fromFragment, toFragment } from './address.js';
+import { fromFragment, stopFromFragment, stopToFragment, toFragment } from './address.js';
 
 /** @typedef {import('./address.js').Shared} Shared */
+/** @typedef {import('./address.js').Stop} Stop a screen that is no search */
 /**
  * @typedef {object} Entry
  * @property {string} topic searches of the same topic share an entry
@@ -15,13 +16,15 @@ import { fromFragment, toFragment } from './address.js';
 /** @typedef {{shared: Shared, entry: Entry | null}} Visit an entry is null for an address from elsewhere */
 
 export class Journey {
-  /** @param {(visit: Visit | null) => void} arrive null: the first screen */
+  /** @param {(place: Visit | Stop | null) => void} arrive null: the first screen */
   constructor(arrive) {
     window.addEventListener('popstate', () => arrive(this.here()));
   }
 
-  /** @returns {Visit | null} */
+  /** @returns {Visit | Stop | null} */
   here() {
+    const stop = stopFromFragment(location.hash);
+    if (stop) return stop;
     const shared = fromFragment(location.hash);
     return shared && { shared, entry: /** @type {Entry | null} */ (history.state) };
   }
@@ -35,6 +38,17 @@ export class Journey {
     const same = here?.topic === entry.topic;
     if (same) history.replaceState(entry, '', toFragment(shared));
     else history.pushState(entry, '', toFragment(shared));
+  }
+
+  /**
+   * One entry for each screen, however it is set.
+   * @param {Stop} stop
+   */
+  stop(stop) {
+    const fragment = stopToFragment(stop);
+    if (location.hash === fragment) return;
+    if (stopFromFragment(location.hash)?.screen === stop.screen) history.replaceState(null, '', fragment);
+    else history.pushState(null, '', fragment);
   }
 
   /** Back to the first screen, as a step that can be undone. */

@@ -8,11 +8,13 @@ import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { byId } from './dom.js';
 import { Easel } from './easel.js';
+import { Features } from './features.js';
 import { Finder } from './finder.js';
 import { FirstScreen } from './first_screen.js';
 import { Journey } from './journey.js';
 import { KeyDialog } from './key_dialog.js';
 import { Notices } from './notices.js';
+import { OptionsPanel } from './options_panel.js';
 import { Palette } from './palette.js';
 import { PictureLoader } from './pictures.js';
 import { Results } from './results.js';
@@ -25,6 +27,7 @@ import { listenForPictures, previewOf } from './upload.js';
 
 /** @typedef {import('./api.js').Picture} Picture */
 /** @typedef {import('./journey.js').Visit} Visit */
+/** @typedef {import('./address.js').Stop} Stop */
 
 const api = new Api((address, options) => fetch(address, options));
 api.key = storedKey(sessionStorage);
@@ -40,12 +43,13 @@ const live = byId('live', HTMLInputElement);
 
 const loader = new PictureLoader(api);
 const like = (/** @type {Picture} */ picture) => find(() => finder.like(picture));
-const details = new Details(api, loader, like);
 const results = new Results(loader, {
   like,
   open: (index) => details.open(results.matches, index),
+  answer: (match) => void features.answers.give(match),
 });
-const screens = new Screens(loader, results);
+const panel = new OptionsPanel();
+const screens = new Screens(loader, results, panel);
 const journey = new Journey(arrive);
 
 const keyDialog = new KeyDialog({
@@ -69,6 +73,16 @@ const finder = new Finder({
   askForKey: () => keyDialog.ask(api.key !== null),
 });
 const watch = new ServerWatch({ api, connection, keyDialog, notices, counted, back: resume });
+const features = new Features({
+  ...{ api, painting, finder, loader, screens, results, panel, notices, watch, like },
+  clock: wallClock,
+  go: (stop) => {
+    firstScreen.interrupt();
+    journey.stop(stop);
+    arrive(stop);
+  },
+});
+const details = new Details(api, loader, like, features);
 const firstScreen = new FirstScreen({
   sampler,
   loader,
@@ -137,16 +151,17 @@ byId('profile', HTMLFieldSetElement).addEventListener('change', (event) => {
 
 // An address searches.
 
-/** @param {Visit | null} visit */
-function arrive(visit) {
+/** @param {Visit | Stop | null} place */
+function arrive(place) {
   firstScreen.interrupt();
-  if (!visit) {
-    finder.stop();
-    firstScreen.show();
+  if (place && 'shared' in place) {
+    if (place.entry?.painting) void restore(place.entry.painting);
+    finder.visit(place);
     return;
   }
-  if (visit.entry?.painting) void restore(visit.entry.painting);
-  finder.visit(visit);
+  finder.stop();
+  if (place) features.open(place);
+  else firstScreen.show();
 }
 
 /** @param {string} kept data: address of the painting of that entry */
@@ -197,12 +212,15 @@ function counted(count, filled) {
 
 /** Asks again for what should be on the screen. */
 function repeat() {
+  const place = journey.here();
   if (finder.query) finder.again();
+  else if (place && 'screen' in place) features.open(place);
   else firstScreen.show();
 }
 
 function resume() {
   void watch.look();
+  void features.look();
   repeat();
 }
 
@@ -233,3 +251,4 @@ listenForShortcuts({
 
 arrive(journey.here());
 void watch.look();
+void features.look();

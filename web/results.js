@@ -4,9 +4,15 @@
 import { thumbnailAddress } from './api.js';
 import { toFragment } from './address.js';
 import { byId, icon, make } from './dom.js';
-import { nameOf, percent } from './wording.js';
+import { likely, nameOf, percent, turned } from './wording.js';
 
 /** @typedef {import('./api.js').Match} Match */
+/**
+ * @typedef {object} CardPort
+ * @property {(match: Match) => void} like
+ * @property {(index: number) => void} open
+ * @property {(match: Match) => void} answer this is the picture that was looked for
+ */
 
 const kGlideMs = 180;
 
@@ -19,7 +25,7 @@ export class Results {
 
   /**
    * @param {import('./pictures.js').PictureLoader} loader
-   * @param {{like: (match: Match) => void, open: (index: number) => void}} port
+   * @param {CardPort} port
    */
   constructor(loader, port) {
     this.#loader = loader;
@@ -32,7 +38,7 @@ export class Results {
     this.matches = matches;
     const cards = this.#cardsFor(matches, places);
     this.#cards = new Map(matches.map((match, i) => [match.id, cards[i]]));
-    cards.forEach((card, i) => card.fill(matches[i], () => this.#port.open(i), this.#port.like));
+    cards.forEach((card, i) => card.fill(matches[i], i, this.#port));
     const focused = document.activeElement;
     cards.forEach((card, i) => {
       const at = this.#grid.children[i];
@@ -57,6 +63,11 @@ export class Results {
     const free = [...this.#cards].filter(([id]) => !ids.has(id)).map(([, card]) => card);
     for (const card of free) places.delete(card);
     return matches.map(({ id }) => this.#cards.get(id) ?? free.pop() ?? new Card(this.#loader));
+  }
+
+  /** @param {boolean} answerable whether a match can be called the one that was looked for */
+  set answerable(answerable) {
+    this.#grid.classList.toggle('answerable', answerable);
   }
 
   hide() {
@@ -96,6 +107,8 @@ export class Results {
 class Card {
   #link = make('a', { className: 'card-picture' });
   #open = make('button', { type: 'button', className: 'card-open' }, icon('open'));
+  #answer = make('button', { type: 'button', className: 'card-answer' }, icon('found'));
+  #turn = make('span', { className: 'card-turn' });
   #meter = make('span', { className: 'meter' });
   #share = make('span', { className: 'share' });
   #loader;
@@ -105,21 +118,26 @@ class Card {
     this.#loader = loader;
     const caption = make('p', { className: 'caption' }, this.#meter, this.#share);
     caption.setAttribute('aria-hidden', 'true'); // the link says it
-    this.element = make('li', { className: 'card' }, this.#link, this.#open, caption);
+    this.element = make('li', { className: 'card' }, this.#link, this.#answer, this.#open, caption);
   }
 
   /**
    * @param {Match} match
-   * @param {() => void} open
-   * @param {(match: Match) => void} like
+   * @param {number} index
+   * @param {CardPort} port
    */
-  fill(match, open, like) {
+  fill(match, index, { like, open, answer }) {
     const name = nameOf(match);
     const similarity = percent(match.similarity);
+    const turn = turned(match.orientation);
     if (this.element.dataset.id !== String(match.id)) this.#picture(match.id);
     this.#link.href = toFragment({ id: match.id, profile: 'scanned' });
-    this.#link.title = `${name}: find more like this`;
-    this.#link.setAttribute('aria-label', `${match.rank}. ${name}, ${similarity} similar. Find more like it`);
+    const known = [name, turn, ...furtherScores(match)].filter((text) => text !== '');
+    this.#link.title = `${known.join(', ')}: find more like this`;
+    const said = [`${match.rank}. ${name}`, `${similarity} similar`, turn].filter((text) => text !== '');
+    this.#link.setAttribute('aria-label', `${said.join(', ')}. Find more like it`);
+    this.#turn.textContent = turn;
+    this.#turn.hidden = turn === '';
     this.#link.onclick = (event) => {
       // With a modifier it is an ordinary link, for a tab of its own.
       if (event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
@@ -128,7 +146,10 @@ class Card {
     };
     this.#open.title = `Open ${name}`;
     this.#open.setAttribute('aria-label', `Open ${name}`);
-    this.#open.onclick = open;
+    this.#open.onclick = () => open(index);
+    this.#answer.title = 'This is it';
+    this.#answer.setAttribute('aria-label', `This is it: ${name} is what I was looking for`);
+    this.#answer.onclick = () => answer(match);
     this.#meter.style.setProperty('--similarity', String(match.similarity));
     this.#share.textContent = similarity;
   }
@@ -140,7 +161,19 @@ class Card {
   #picture(id) {
     this.element.dataset.id = String(id);
     const image = make('img', { alt: '', decoding: 'async', draggable: false });
-    this.#link.replaceChildren(image);
+    this.#link.replaceChildren(image, this.#turn);
     void this.#loader.show(image, thumbnailAddress(id));
   }
+}
+
+/**
+ * The scores that not every search has.
+ * @param {Match} match
+ * @returns {string[]}
+ */
+function furtherScores({ combined_rank: combined, probability }) {
+  const scores = [];
+  if (combined !== undefined) scores.push(`combined rank ${Math.round(combined * 10) / 10}`);
+  if (probability !== undefined) scores.push(`${likely(probability)} likely to be meant`);
+  return scores;
 }

@@ -2,13 +2,13 @@
 // collection is empty; and, above results, what was asked.
 
 import { byId, make } from './dom.js';
-import { toFragment } from './address.js';
 import { thumbnailAddress } from './api.js';
-import { counted, duration, nameOf } from './wording.js';
+import { thumbLink } from './thumb_link.js';
+import { counted, duration } from './wording.js';
 
 /** @typedef {import('./api.js').Picture} Picture */
 /** @typedef {import('./api.js').Reply} Reply */
-/** @typedef {'welcome' | 'results' | 'problem' | 'empty'} Screen */
+/** @typedef {'welcome' | 'results' | 'problem' | 'empty' | 'overview' | 'duplicates'} Screen */
 
 /** A quick answer should not make the progress line flicker. */
 const kProgressDelayMs = 150;
@@ -17,6 +17,7 @@ export class Screens {
   /** @type {Screen} */ #now = 'welcome';
   #loader;
   #results;
+  #panel;
   #progressTimer = 0;
   /** Whether there is a query to be shown above results or a problem. */
   #asked = false;
@@ -24,10 +25,12 @@ export class Screens {
   /**
    * @param {import('./pictures.js').PictureLoader} loader
    * @param {import('./results.js').Results} results
+   * @param {import('./options_panel.js').OptionsPanel} panel
    */
-  constructor(loader, results) {
+  constructor(loader, results, panel) {
     this.#loader = loader;
     this.#results = results;
+    this.#panel = panel;
   }
 
   get now() {
@@ -37,11 +40,11 @@ export class Screens {
   /** @param {Screen} screen */
   show(screen) {
     this.#now = screen;
-    for (const name of ['welcome', 'problem', 'empty']) {
+    for (const name of ['welcome', 'problem', 'empty', 'overview', 'duplicates']) {
       byId(name, HTMLElement).hidden = name !== screen;
     }
     if (screen !== 'results') this.#results.hide();
-    if (screen === 'welcome' || screen === 'empty') this.#asked = false;
+    if (screen !== 'results' && screen !== 'problem') this.#asked = false;
     byId('query', HTMLElement).hidden = !this.#asked;
   }
 
@@ -58,7 +61,7 @@ export class Screens {
    * What is searched for.
    * @param {import('./finder.js').Query} query
    */
-  ask({ asked, source, profile }) {
+  ask({ asked, source, profile, options }) {
     this.#asked = true;
     byId('findings-title', HTMLElement).textContent = asked.title;
     const picture = byId('asked-picture', HTMLImageElement);
@@ -76,6 +79,7 @@ export class Screens {
     for (const input of byId('profile', HTMLElement).querySelectorAll('input')) {
       input.checked = input.value === profile;
     }
+    this.#panel.show(profile, options, source.kind);
   }
 
   /** @param {Reply} reply */
@@ -84,6 +88,7 @@ export class Screens {
     const found = counted(reply.searched, 'picture', 'pictures');
     byId('summary', HTMLElement).textContent = `${found} searched in ${duration(reply.took_ms)}`;
     byId('low-information', HTMLElement).hidden = reply.query.low_information !== true;
+    byId('none', HTMLElement).hidden = reply.matches.length > 0;
     this.#results.show(reply.matches);
   }
 
@@ -99,6 +104,7 @@ export class Screens {
     byId('problem-button', HTMLElement).hidden = !again;
     byId('summary', HTMLElement).textContent = '';
     byId('low-information', HTMLElement).hidden = true;
+    byId('none', HTMLElement).hidden = true;
   }
 
   /** @param {number} count pictures in the collection */
@@ -115,19 +121,7 @@ export class Screens {
   offer(pictures, like) {
     byId('samples-title', HTMLElement).hidden = pictures.length === 0;
     byId('samples', HTMLElement).replaceChildren(
-      ...pictures.map((picture) => {
-        const image = make('img', { alt: '', decoding: 'async' });
-        void this.#loader.show(image, thumbnailAddress(picture.id));
-        const href = toFragment({ id: picture.id, profile: 'scanned' });
-        const link = make('a', { className: 'card-picture', href }, image);
-        link.setAttribute('aria-label', `Find pictures like ${nameOf(picture)}`);
-        link.addEventListener('click', (event) => {
-          if (event.ctrlKey || event.metaKey || event.shiftKey) return;
-          event.preventDefault();
-          like(picture);
-        });
-        return make('li', {}, link);
-      }),
+      ...pictures.map((picture) => make('li', {}, thumbLink(picture, this.#loader, like))),
     );
   }
 }

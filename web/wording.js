@@ -18,6 +18,28 @@ export function percent(similarity) {
   return `${similarity < 1 ? Math.min(99, rounded) : 100} %`;
 }
 
+/** @param {number} probability */
+export function likely(probability) {
+  if (probability >= 0.01 && probability < 0.995) return `${Math.round(probability * 100)} %`;
+  return probability < 0.01 ? 'less than 1 %' : 'more than 99 %';
+}
+
+/** How a query has to be turned to be the match; empty if not at all. */
+const kTurns = new Map([
+  ['mirror_x', 'mirrored'],
+  ['mirror_y', 'upside down, mirrored'],
+  ['turn_90', 'turned 90°'],
+  ['turn_180', 'upside down'],
+  ['turn_270', 'turned 270°'],
+  ['transpose', 'mirrored, turned 270°'],
+  ['anti_transpose', 'mirrored, turned 90°'],
+]);
+
+/** @param {string | undefined} orientation */
+export function turned(orientation = 'identity') {
+  return kTurns.get(orientation) ?? (orientation === 'identity' ? '' : orientation.replaceAll('_', ' '));
+}
+
 /** @param {number} ms */
 export function duration(ms) {
   if (ms < 1) return 'less than a millisecond';

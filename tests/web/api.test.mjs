@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Api } from '../../web/api.js';
+import { Api, carrying } from '../../web/api.js';
 import { KeyWanted, Overloaded, Refused, Unreachable } from '../../web/failures.js';
 
 /** @param {() => Response | Promise<Response>} respond */
@@ -46,6 +46,24 @@ test('ids and signatures are asked for by address', async () => {
   await api.query({ kind: 'signature', signature: 'a+b/=&' }, kOptions, kSignal);
   assert.equal(calls[0].address, 'query?id=12&profile=painted&limit=20&seq=3');
   assert.equal(calls[1].address, 'query?signature=a%2Bb%2F%3D%26&profile=painted&limit=20&seq=3');
+});
+
+test('what differs from the plain search goes with the query, as far as its source allows', async () => {
+  const { api, calls } = bench(ok);
+  const asking = { ...kOptions, options: { partial: /** @type {const} */ (true), tags: 'a,b' }, explain: true };
+  const blob = new Blob(['png'], { type: 'image/png' });
+  await api.query({ kind: 'painting', png: async () => blob }, asking, kSignal);
+  await api.query({ kind: 'id', id: 12 }, asking);
+  assert.equal(calls[0].address, 'query?profile=painted&limit=20&seq=3&partial=true&tags=a%2Cb&explain=true');
+  assert.equal(calls[1].address, 'query?id=12&profile=painted&limit=20&seq=3&tags=a%2Cb&explain=true');
+});
+
+test('a document is carried as JSON, and an order needs no answer', async () => {
+  const { api, calls } = bench(() => new Response(null, { status: 204 }));
+  await api.order('feedback', carrying('POST', { target: 3 }));
+  const { method, headers, body } = calls[0].options;
+  assert.deepEqual([method, new Headers(headers).get('Content-Type'), body], ['POST', 'application/json', '{"target":3}']);
+  await assert.rejects(bench(() => new Response('', { status: 404 })).api.order('x', {}), Refused);
 });
 
 test('the key goes with every call once there is one', async () => {

@@ -2,7 +2,8 @@
 //
 // Unpainted canvas is transparent and does not count in the search; the eraser makes it so
 // again. Every change is one step of the history; a step keeps the touched rectangle before
-// and after. 'change' tells of every change, with `settled` false during a stroke.
+// and after. 'change' tells of every change, with `settled` false during a stroke; 'step' of
+// every step of the history, after its change.
 
 import { fromHex } from './color.js';
 import { floodFill } from './flood_fill.js';
@@ -13,7 +14,9 @@ import { Stroke } from './stroke.js';
 /** @typedef {import('./flood_fill.js').Rect} Rect */
 /** @typedef {import('./stroke.js').PenPoint} PenPoint */
 /** @typedef {{x: number, y: number}} Point */
-/** @typedef {{stroke: Stroke, extent: Extent, color: string | null}} Drawing */
+/** @typedef {{color: string | null, size: number}} Brush no colour: the eraser */
+/** @typedef {{stroke: Stroke, extent: Extent, trace: PenPoint[]} & Brush} Drawing */
+/** @typedef {{kind: 'stroke', trace: PenPoint[]} & Brush | {kind: 'other' | 'undo' | 'redo'}} Step */
 
 const kMaxSteps = 200;
 const kMaxBytes = 96 * 2 ** 20;
@@ -60,31 +63,34 @@ export class Painting extends EventTarget {
 
   /**
    * @param {PenPoint} point
-   * @param {{color: string | null, size: number}} brush no colour: the eraser
+   * @param {Brush} brush
    */
   beginStroke(point, { color, size }) {
     this.endStroke();
     this.#remember();
-    this.#stroke = { stroke: new Stroke(size, point), extent: new Extent(), color };
+    const stroke = new Stroke(size, point);
+    this.#stroke = { stroke, extent: new Extent(), trace: [point], color, size };
     if (color !== null) this.#empty = false;
-    this.#draw([this.#stroke.stroke.dot()]);
+    this.#draw([stroke.dot()]);
   }
 
   /** @param {PenPoint[]} points */
   extendStroke(points) {
     if (!this.#stroke) return;
-    const { stroke } = this.#stroke;
+    const { stroke, trace } = this.#stroke;
+    trace.push(...points);
     this.#draw(points.flatMap((point) => stroke.extend(point)));
   }
 
   endStroke() {
     if (!this.#stroke) return;
-    const { stroke, extent } = this.#stroke;
+    const { stroke, extent, trace, color, size } = this.#stroke;
     this.#draw(stroke.finish());
     this.#stroke = null;
     const touched = extent.within(this.width, this.height);
     if (touched) this.#keep(touched);
     this.#changed(true);
+    if (touched) this.#stepped({ kind: 'stroke', trace, color, size });
   }
 
   /** Takes the stroke that is being drawn back, as when the system takes the pointer away. */
@@ -111,6 +117,7 @@ export class Painting extends EventTarget {
     this.#context.putImageData(raster, 0, 0);
     this.#keep(touched);
     this.#changed(true);
+    this.#stepped({ kind: 'other' });
   }
 
   /**
@@ -129,6 +136,7 @@ export class Painting extends EventTarget {
     this.#context.clearRect(0, 0, this.width, this.height);
     this.#keep(this.#all());
     this.#changed(true);
+    this.#stepped({ kind: 'other' });
   }
 
   /**
@@ -158,12 +166,16 @@ export class Painting extends EventTarget {
 
   undo() {
     this.endStroke();
-    if (this.#history.undo()) this.#changed(true);
+    if (!this.#history.undo()) return;
+    this.#changed(true);
+    this.#stepped({ kind: 'undo' });
   }
 
   redo() {
     this.endStroke();
-    if (this.#history.redo()) this.#changed(true);
+    if (!this.#history.redo()) return;
+    this.#changed(true);
+    this.#stepped({ kind: 'redo' });
   }
 
   /**
@@ -254,6 +266,7 @@ export class Painting extends EventTarget {
       bytes: before.data.length + after.data.length,
     });
     this.#changed(true);
+    this.#stepped({ kind: 'other' });
   }
 
   /** @param {ImageData} pixels */
@@ -271,6 +284,11 @@ export class Painting extends EventTarget {
   /** @returns {Rect} */
   #all() {
     return { x: 0, y: 0, width: this.width, height: this.height };
+  }
+
+  /** @param {Step} step */
+  #stepped(step) {
+    this.dispatchEvent(new CustomEvent('step', { detail: step }));
   }
 
   /** @param {boolean} settled */

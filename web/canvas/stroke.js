@@ -55,9 +55,16 @@ export class Stroke {
 
   /** @param {PenPoint} point */
   #knot({ x, y, pressure }) {
-    const share = kLeastPressureWidth + (1 - kLeastPressureWidth) * pressure;
-    return { x, y, width: this.#size * share };
+    return { x, y, width: pressedWidth(this.#size, pressure) };
   }
+}
+
+/**
+ * @param {number} size brush diameter
+ * @param {number} pressure in [0, 1]
+ */
+export function pressedWidth(size, pressure) {
+  return size * (kLeastPressureWidth + (1 - kLeastPressureWidth) * pressure);
 }
 
 /**

@@ -6,6 +6,7 @@ import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
 import { extname, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { FakeFeatures } from './fake_features.mjs';
 import { encodePng } from './png.mjs';
 
 const kWeb = fileURLToPath(new URL('../../../web/', import.meta.url));
@@ -37,6 +38,8 @@ export class FakeServer {
   onQuery = null;
   /** @type {((id: number) => Promise<{type: string, bytes: Buffer}>)} */
   picture = async (id) => ({ type: 'image/png', bytes: drawn(id) });
+  /** Everything beyond the plain search; null: an older server. @type {FakeFeatures | null} */
+  features = new FakeFeatures(problem, described);
   /** Queries that are being answered at this moment, and the most there ever were. */
   inFlight = 0;
   mostInFlight = 0;
@@ -100,6 +103,8 @@ export class FakeServer {
     if (this.key !== null && call.headers.authorization !== `Bearer ${this.key}`) {
       return problem(401, 'unauthorized', 'this needs an API key');
     }
+    const feature = this.features?.answer(call);
+    if (feature) return feature;
     if (path === '/query') return this.#query(call);
     if (path === '/status') return { status: 200, body: { images: this.count } };
     if (path === '/images') return { status: 200, body: this.#list(call.url) };
@@ -134,13 +139,14 @@ export class FakeServer {
     if (id > this.count) return problem(404, 'unknown_id', `there is no image ${id}`);
     const first = id || 1 + (hash(call) % Math.max(1, this.count));
     const limit = Math.min(this.count, Number(searchParams.get('limit')));
-    const matches = Array.from({ length: limit }, (_, i) => ({
+    const plain = Array.from({ length: limit }, (_, i) => ({
       ...described(1 + ((first - 1 + i) % this.count)),
       rank: i + 1,
       distance: i * 1.25,
       similarity: 1 - i / 25,
       orientation: 'identity',
     }));
+    const matches = plain.map((match) => this.features?.enrich(match, searchParams) ?? match);
     const signature = searchParams.get('signature') ?? `opaque-${first}`;
     return {
       status: 200,
