@@ -136,7 +136,7 @@ function facts(match) {
     known.push(['Combined rank', String(Math.round(match.combined_rank * 10) / 10)]);
   }
   if (match.probability !== undefined) {
-    known.push(['Probability to be the one', likely(match.probability)]);
+    known.push(['Probability', likely(match.probability)]);
   }
   if (turned(match.orientation) !== '') known.push(['Orientation', turned(match.orientation)]);
   if (match.width && match.height) known.push(['Size', `${match.width} × ${match.height} pixels`]);

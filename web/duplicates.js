@@ -16,6 +16,7 @@ import { counted, decoded, nameOf, percent } from './wording.js';
 /** @typedef {{items: Group[], next_cursor?: string | null, as_of?: string | null}} Page */
 
 const kLimit = 20;
+const kMoment = new Intl.DateTimeFormat('en', { dateStyle: 'medium', timeStyle: 'short' });
 /** @type {Record<string, string>} */
 const kLevelNames = { exact: 'The same file', near: 'Nearly the same', similar: 'Alike' };
 
@@ -102,7 +103,7 @@ export class Duplicates {
   /** @param {string | null} asOf when the last search ended */
   #summarize(asOf) {
     const count = this.#list.children.length;
-    const when = asOf === null ? '' : `, as of ${new Date(asOf).toLocaleString('en')}`;
+    const when = asOf === null ? '' : `, as of ${kMoment.format(new Date(asOf))}`;
     if (count > 0) {
       const shown = counted(count, 'group', 'groups');
       this.#said.textContent = `${shown}${this.#cursor === null ? '' : ' and more'}${when}`;

@@ -95,6 +95,7 @@ export class Features {
   /** @param {Stop} stop */
   open(stop) {
     this.#parts.screens.show(stop.screen);
+    window.scrollTo(0, 0);
     if (stop.screen === 'overview') void this.overview.open(stop.count);
     else void this.duplicates.open(stop.level);
   }

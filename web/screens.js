@@ -43,6 +43,9 @@ export class Screens {
     for (const name of ['welcome', 'problem', 'empty', 'overview', 'duplicates']) {
       byId(name, HTMLElement).hidden = name !== screen;
     }
+    for (const place of ['overview', 'duplicates']) {
+      byId(`to-${place}`, HTMLElement).ariaCurrent = place === screen ? 'page' : null;
+    }
     if (screen !== 'results') this.#results.hide();
     if (screen !== 'results' && screen !== 'problem') this.#asked = false;
     byId('query', HTMLElement).hidden = !this.#asked;

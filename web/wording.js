@@ -27,12 +27,12 @@ export function likely(probability) {
 /** How a query has to be turned to be the match; empty if not at all. */
 const kTurns = new Map([
   ['mirror_x', 'mirrored'],
-  ['mirror_y', 'upside down, mirrored'],
+  ['mirror_y', 'flipped'],
   ['turn_90', 'turned 90°'],
   ['turn_180', 'upside down'],
   ['turn_270', 'turned 270°'],
-  ['transpose', 'mirrored, turned 270°'],
-  ['anti_transpose', 'mirrored, turned 90°'],
+  ['transpose', 'mirrored, 270°'],
+  ['anti_transpose', 'mirrored, 90°'],
 ]);
 
 /** @param {string | undefined} orientation */

@@ -39,8 +39,8 @@ test('a turn is told from the query to the match, and none not at all', () => {
 /** What each symmetry does to a pixel of an image, x to the right and y down. */
 const kSymmetries = new Map([
   ['mirrored', (/** @type {number[]} */ [x, y]) => [-x, y]],
-  ['turned 90°', (/** @type {number[]} */ [x, y]) => [-y, x]],
-  ['turned 270°', (/** @type {number[]} */ [x, y]) => [y, -x]],
+  ['90°', (/** @type {number[]} */ [x, y]) => [-y, x]],
+  ['270°', (/** @type {number[]} */ [x, y]) => [y, -x]],
 ]);
 
 test('the words for a transposition, done one after the other, are that transposition', () => {

@@ -137,7 +137,8 @@ export class FakeServer {
     const { searchParams } = call.url;
     const id = Number(searchParams.get('id') ?? 0);
     if (id > this.count) return problem(404, 'unknown_id', `there is no image ${id}`);
-    const first = id || 1 + (hash(call) % Math.max(1, this.count));
+    const [, signed] = (searchParams.get('signature') ?? '').match(/^opaque-(\d+)$/) ?? [];
+    const first = id || Number(signed) || 1 + (hash(call) % Math.max(1, this.count));
     const limit = Math.min(this.count, Number(searchParams.get('limit')));
     const plain = Array.from({ length: limit }, (_, i) => ({
       ...described(1 + ((first - 1 + i) % this.count)),
@@ -196,7 +197,7 @@ async function pageFile(path) {
 }
 
 /** @param {number} id */
-function described(id) {
+export function described(id) {
   return {
     id,
     uri: `file:///pictures/picture%20${id}.png`,
