@@ -109,20 +109,17 @@ export class OptionsPanel extends EventTarget {
   #listProfiles() {
     const names = this.#profiles.map(({ name }) => name);
     if (!names.includes(this.#name)) names.unshift(this.#name);
-    this.#profile.replaceChildren(...names.map((name) => make('option', { value: name }, name)));
-    this.#profile.value = this.#name;
     const others = names.filter((name) => name !== this.#name);
     byId('combine-row', HTMLElement).hidden = !this.#combines || others.length === 0;
-    const focused = document.activeElement;
-    const at = focused instanceof HTMLInputElement && this.#combine.contains(focused) ? focused.value : null;
-    this.#combine.replaceChildren(
-      ...others.map((value) => {
-        const checked = this.#options.combine?.includes(value) ?? false;
-        const box = make('input', { type: 'checkbox', value, checked });
-        return make('label', { className: 'chip' }, box, make('span', {}, value));
-      }),
-    );
-    if (at !== null) this.#boxes().find(({ value }) => value === at)?.focus();
+    // Every answer comes through here: what stays is not made anew under somebody's finger.
+    if (String(names) !== String([...this.#profile.options].map(({ value }) => value))) {
+      this.#profile.replaceChildren(...names.map((name) => make('option', { value: name }, name)));
+    }
+    if (String(others) !== String(this.#boxes().map(({ value }) => value))) {
+      this.#combine.replaceChildren(...others.map(chip));
+    }
+    this.#profile.value = this.#name;
+    for (const box of this.#boxes()) box.checked = this.#options.combine?.includes(box.value) ?? false;
   }
 
   #boxes() {
@@ -159,4 +156,10 @@ export class OptionsPanel extends EventTarget {
     this.dispatchEvent(new CustomEvent('profile', { detail: profile }));
     this.show(profile, this.#options, this.#kind);
   }
+}
+
+/** @param {string} value */
+function chip(value) {
+  const box = make('input', { type: 'checkbox', value });
+  return make('label', { className: 'chip' }, box, make('span', {}, value));
 }

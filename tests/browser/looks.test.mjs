@@ -39,9 +39,33 @@ for (const [name, options] of kViews) {
       await page.keyboard.press('Enter');
       await page.locator('#details').waitFor();
       await fitsAndReads(page, `${name}, details`);
+      await page.locator('#why summary').click();
+      await page.locator('.why-picture').waitFor();
+      await fitsAndReads(page, `${name}, why`);
+      await keepScreenshot(page, `why-${name}`);
       await page.keyboard.press('Escape');
       await page.locator('#help-button').click();
       await fitsAndReads(page, `${name}, help`);
+      await page.keyboard.press('Escape');
+      await page.locator('#options summary').click();
+      await page.locator('#option-orientations').selectOption('all');
+      await page.locator('#option-combine').getByLabel('painted_lab').check();
+      await page.waitForURL(/combine=painted_lab/);
+      await fitsAndReads(page, `${name}, options`);
+      await page.locator('#combine-by-row').scrollIntoViewIfNeeded();
+      await keepScreenshot(page, `options-${name}`);
+      await page.locator('#to-overview').click();
+      await page.locator('.group button').nth(1).click();
+      await fitsAndReads(page, `${name}, overview`);
+      await keepScreenshot(page, `overview-${name}`);
+      await page.locator('#to-duplicates').click();
+      await page.locator('#duplicates-find').click();
+      await page.locator('.duplicate').first().waitFor();
+      await fitsAndReads(page, `${name}, duplicates`);
+      await keepScreenshot(page, `duplicates-${name}`);
+      await page.getByRole('button', { name: 'Delete' }).first().click();
+      await page.locator('#question').waitFor();
+      await fitsAndReads(page, `${name}, question`);
       assert.deepEqual(complaints, []);
     } finally {
       await close();
@@ -95,8 +119,10 @@ test('the Tab key reaches every control, and shows where it is', async () => {
   try {
     await page.goto(server.address);
     await page.locator('#samples li').first().waitFor();
-    const reached = new Set();
-    for (let i = 0; i < 60; ++i) {
+    await page.locator('#options summary').click();
+    await page.locator('#home').focus();
+    const reached = new Set(['home']);
+    for (let i = 0; i < 80; ++i) {
       await page.keyboard.press('Tab');
       const { id, outlined } = await page.evaluate(() => {
         const focused = document.activeElement ?? document.body;
@@ -112,7 +138,8 @@ test('the Tab key reaches every control, and shows where it is', async () => {
     }
     for (const id of [
       'home', 'help-button', 'tool', 'canvas', 'color', 'custom-color', 'size', 'shape', 'match',
-      'live', 'file', 'surprise', 'example', 'card-picture',
+      'live', 'file', 'surprise', 'example', 'card-picture', 'to-overview', 'to-duplicates',
+      'option-profile', 'option-orientations', 'option-text', 'option-partial', 'train',
     ]) {
       assert.ok(reached.has(id), `${id} is not reached: ${[...reached]}`);
     }

@@ -48,7 +48,7 @@ test('each option is sent, stands in the address, and is set again from there', 
   await page.keyboard.press('Enter');
   await page.locator('#option-tags').fill('a,b');
   await page.keyboard.press('Enter');
-  await page.locator('#option-combine').getByText('painted_lab').click();
+  await page.locator('#option-combine').getByLabel('painted_lab').check();
   await page.locator('#option-combine-by').selectOption('worst');
   await page.waitForURL(/combine_by=worst/);
   const fields = Object.fromEntries(lastQuery());
