@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,9 @@ using nlohmann::json;
 using Kinds = std::vector<SignatureKind>;
 
 constexpr int kPage = 64;
+// A commit costs a flush of the disk, so that several pictures share one.
+constexpr std::size_t kBatch = 16;
+constexpr std::chrono::milliseconds kBatchAge{250};
 constexpr std::int64_t kMaxFileBytes = std::int64_t{1} << 30;
 
 struct Request {
@@ -100,21 +104,32 @@ class Reindexing {
     Result<void> run();
 
   private:
-    enum class Became { kUpdated, kSkipped, kFailed };
+    using Clock = std::chrono::steady_clock;
+    using Write = std::function<Result<void>()>;
 
-    Result<Became> renew(const schema::Image& row);
+    // What is to be written of a picture, unless it has become another one since.
+    struct Pending {
+        schema::Image row;
+        Write write;
+    };
+
+    Result<void> renew(const schema::Image& row);
     Result<Kinds> lacking(const schema::Image& row);
     Result<std::vector<std::uint8_t>> original(const schema::Image& row,
                                                std::optional<Failure>& failure);
-    Result<Became> store(const schema::Image& row,
-                         const std::function<Result<void>()>& write);
-    Became failed(const schema::Image& row, const std::string& reason);
+    Result<void> failed(const schema::Image& row, const std::string& reason);
+    // Commits what is pending: all that was seen up to `last` is done with.
+    Result<void> commit(ImageId last);
+    [[nodiscard]] bool commit_is_due() const;
+    Result<bool> is_as_it_was(const schema::Image& row);
 
     JobContext& job_;
     schema::ImageStore& images_;
     const Request request_;
     ingest::Decoder decoder_;
     ingest::ByteBudget budget_{kMaxFileBytes};
+    std::vector<Pending> pending_;
+    Clock::time_point committed_ = Clock::now();
 };
 
 Result<void> Reindexing::run() {
@@ -129,24 +144,56 @@ Result<void> Reindexing::run() {
         if (!pictures) return pictures.error();
         if (pictures->empty()) return {};
         for (const schema::Image& row : pictures.value()) {
-            if (job_.cancelled()) return {};
-            const Result<Became> became = renew(row);
-            if (!became) return became.error();
-            schema::JobCounts& counts = job_.counts();
-            ++counts.seen;
-            if (*became == Became::kUpdated) ++counts.updated;
-            if (*became == Became::kSkipped) ++counts.skipped;
+            if (job_.cancelled())
+                return page.after ? commit(*page.after) : Result<void>();
+            if (Result<void> renewed = renew(row); !renewed) return renewed;
+            ++job_.counts().seen;
             page.after = row.id;
-            job_.set_position(std::to_string(to_int(row.id)));
-            job_.progress();
+            if (!commit_is_due()) continue;
+            if (Result<void> done = commit(row.id); !done) return done;
         }
+        if (Result<void> done = commit(*page.after); !done) return done;
     }
 }
 
-Reindexing::Became Reindexing::failed(const schema::Image& row,
-                                      const std::string& reason) {
+bool Reindexing::commit_is_due() const {
+    return pending_.size() >= kBatch || Clock::now() - committed_ >= kBatchAge;
+}
+
+Result<void> Reindexing::commit(ImageId last) {
+    schema::JobCounts counts = job_.counts();
+    if (!pending_.empty()) {
+        const Result<void> stored = images_.transaction([&]() -> Result<void> {
+            for (const Pending& pending : pending_) {
+                const Result<bool> same = is_as_it_was(pending.row);
+                if (!same) return same.error();
+                ++(*same ? counts.updated : counts.skipped);
+                if (!*same) continue;
+                if (Result<void> written = pending.write(); !written) return written;
+            }
+            return {};
+        });
+        if (!stored) return stored;
+        pending_.clear();
+    }
+    committed_ = Clock::now();
+    job_.counts() = counts;
+    job_.set_position(std::to_string(to_int(last)));
+    job_.progress();
+    return {};
+}
+
+// Not deleted, replaced or ingested anew since `row` was read.
+Result<bool> Reindexing::is_as_it_was(const schema::Image& row) {
+    const Result<schema::Image> now = images_.get(row.id);
+    if (!now && now.error().code != ErrorCode::kNotFound) return now.error();
+    return now && now->state == schema::ImageState::kIndexed &&
+           now->stamp.content_hash == row.stamp.content_hash;
+}
+
+Result<void> Reindexing::failed(const schema::Image& row, const std::string& reason) {
     job_.fail("image " + std::to_string(to_int(row.id)) + ": " + reason);
-    return Became::kFailed;
+    return {};
 }
 
 Result<Kinds> Reindexing::lacking(const schema::Image& row) {
@@ -190,13 +237,15 @@ Result<std::vector<std::uint8_t>> Reindexing::original(const schema::Image& row,
     return std::move(file->bytes);
 }
 
-Result<Reindexing::Became> Reindexing::renew(const schema::Image& row) {
+Result<void> Reindexing::renew(const schema::Image& row) {
     Result<Kinds> missing = lacking(row);
     if (!missing) return missing.error();
     const bool anew = request_.all && row.origin == schema::ImageOrigin::kFile;
     const Kinds& kinds = anew ? request_.kinds : missing.value();
-    if (kinds.empty()) return Became::kSkipped;
-
+    if (kinds.empty()) {
+        ++job_.counts().skipped;
+        return {};
+    }
     std::optional<Failure> failure;
     const auto bytes = original(row, failure);
     if (!bytes) return bytes.error();
@@ -210,34 +259,25 @@ Result<Reindexing::Became> Reindexing::renew(const schema::Image& row) {
         described->origin = row.origin;
         described->uri = row.uri;
         described->stamp = row.stamp;
-        return store(row, [&] { return images_.update(row.id, described.value()); });
+        pending_.push_back({row, [this, id = row.id, image = std::move(*described)] {
+                                return images_.update(id, image);
+                            }});
+        return {};
     }
     const Result<ingest::Picture> picture = decoder_.decode(bytes.value());
     if (!picture) return failed(row, picture.error().message);
-    const auto variants = ingest::signature_variants(picture->view(), kinds);
-    return store(row, [&]() -> Result<void> {
-        for (const schema::SignatureVariant& variant : variants)
-            if (Result<void> set = images_.set_variant(row.id, variant); !set) return set;
-        return {};
-    });
-}
-
-// Unless the picture has become another one since `row` was read.
-Result<Reindexing::Became> Reindexing::store(const schema::Image& row,
-                                             const std::function<Result<void>()>& write) {
-    Became became = Became::kUpdated;
-    const Result<void> stored = images_.transaction([&]() -> Result<void> {
-        const Result<schema::Image> now = images_.get(row.id);
-        if (!now && now.error().code != ErrorCode::kNotFound) return now.error();
-        if (!now || now->state != schema::ImageState::kIndexed ||
-            now->stamp.content_hash != row.stamp.content_hash) {
-            became = Became::kSkipped;
-            return {};
-        }
-        return write();
-    });
-    if (!stored) return stored.error();
-    return became;
+    pending_.push_back({row,
+                        [this,
+                         id = row.id,
+                         variants = ingest::signature_variants(picture->view(),
+                                                               kinds)]() -> Result<void> {
+                            for (const schema::SignatureVariant& variant : variants)
+                                if (Result<void> set = images_.set_variant(id, variant);
+                                    !set)
+                                    return set;
+                            return {};
+                        }});
+    return {};
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ TEST_F(Duplicates, AnIgnoredPairIsNeverShownAgain) {
     static_cast<void>(publish(pairs));
     EXPECT_THAT(shown(), ElementsAre(pairs[0], pairs[2]));
     EXPECT_EQ(rows("ignored_duplicates"), 1);
+    EXPECT_THAT(expect(store_.ignored()), ElementsAre(std::pair(ImageId{1}, ImageId{3})));
     // Also while one of them cannot be searched; it goes with the row.
     static_cast<void>(expect(images_.mark_failed(file_picture(3).uri, {}, "cut")));
     EXPECT_EQ(rows("ignored_duplicates"), 1);

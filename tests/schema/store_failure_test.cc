@@ -283,7 +283,8 @@ TEST(BrokenPage, IsAnErrorOfEveryFunctionOfTheStoresThatMeetsIt) {
          {[](Stores& s) { return without_value(s.duplicates.pairs(0)); },
           [&](Stores& s) { return s.duplicates.add(2, pair); }}},
         {"ignored_duplicates",
-         {[](Stores& s) { return s.duplicates.ignore(ImageId{1}, ImageId{2}); }}},
+         {[](Stores& s) { return s.duplicates.ignore(ImageId{1}, ImageId{2}); },
+          [](Stores& s) { return without_value(s.duplicates.ignored()); }}},
         {"images_content",
          {[](Stores& s) { return without_value(s.duplicates.same_content()); }}},
     };

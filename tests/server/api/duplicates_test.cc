@@ -66,7 +66,7 @@ TEST_F(DuplicatesTest, PagesFollowOneAnother) {
 }
 
 TEST_F(DuplicatesTest, WhatIsIgnoredStaysAwayThroughLaterSearches) {
-    for (const json ids : {json{2, 1}, json{1, 3}, json{2, 3}})
+    for (const json& ids : {json{2, 1}, json{1, 3}, json{2, 3}})
         EXPECT_EQ(interface_.post_json("/duplicates/ignore", {{"ids", ids}}).status, 204);
     EXPECT_EQ(listed()["items"], json::array());
     search();
@@ -86,7 +86,7 @@ TEST_F(DuplicatesTest, RefusesByName) {
     const auto refused = [&](const json& body) {
         return refusal_of(interface_.post_json("/duplicates/ignore", body));
     };
-    for (const json ids :
+    for (const json& ids :
          {json(1), json{1}, json{1, 1}, json{1, 0}, json{1, "2"}, json{1, 2, 3}})
         EXPECT_EQ(refused({{"ids", ids}}), (Refusal{400, "invalid_argument", "ids"}))
             << ids;

@@ -12,6 +12,7 @@
 #include "server/version.h"
 #include "tests/server/api/interface.h"
 #include "tests/server/api/json_schema.h"
+#include "tests/server/app/job_watch.h"
 
 namespace haarmony::server {
 namespace {
@@ -173,6 +174,62 @@ TEST(Openapi, RepliesAreAsDescribed) {
     const auto other = beside(interface.collection);
     ASSERT_TRUE(other->images().mark_failed("file:///bad.jpg", {}, "truncated"));
     check("GET", "/images/{id}", 200, interface.get("/images/3"));
+}
+
+TEST(Openapi, JobsAndTheCollectionAreAsDescribed) {
+    Interface interface;
+    for (const unsigned number : {1U, 1U, 2U}) interface.collection.add(number);
+    const auto check = [](const std::string& method,
+                          const std::string& pattern,
+                          int status,
+                          const http::Response& response) {
+        EXPECT_EQ(response.status, status)
+            << method << " " << pattern << body_of(response);
+        EXPECT_EQ(violation_of(method, pattern, response), std::nullopt)
+            << method << " " << pattern << "\n"
+            << body_of(response);
+    };
+    const std::vector<json> jobs{{{"type", "find_duplicates"}, {"min_similarity", 0.5}},
+                                 {{"type", "reindex"}, {"profile", "painted"}},
+                                 {{"type", "reindex"},
+                                  {"color_space", "lab"},
+                                  {"decomposition", "standard"},
+                                  {"all", true}}};
+    for (const json& job : jobs) {
+        EXPECT_EQ(
+            violation(job, document()["components"]["schemas"]["JobRequest"], document()),
+            std::nullopt)
+            << job;
+        check("POST", "/jobs", 202, interface.post_json("/jobs", job));
+    }
+    check("POST", "/jobs", 400, interface.post_json("/jobs", {{"type", "snapshot"}}));
+    check("POST",
+          "/jobs",
+          403,
+          interface.post_json("/jobs", {{"type", "ingest"}, {"paths", {"/"}}}));
+    check("GET", "/jobs", 200, interface.get("/jobs?limit=1"));
+    EXPECT_EQ(finished(*interface.jobs, 3).state, schema::JobState::kDone);
+    check("GET", "/jobs/{id}", 200, interface.get("/jobs/1"));
+    check("GET", "/jobs/{id}", 404, interface.get("/jobs/77"));
+    check("GET", "/jobs/{id}/events", 200, interface.get("/jobs/1/events"));
+    check("GET", "/jobs/{id}/events", 404, interface.get("/jobs/77/events"));
+    check("DELETE", "/jobs/{id}", 409, interface.send("DELETE", "/jobs/1"));
+    check("GET", "/duplicates", 200, interface.get("/duplicates"));
+    check("GET", "/duplicates", 400, interface.get("/duplicates?level=x"));
+    const json pair{{"ids", {1, 2}}};
+    check("POST",
+          "/duplicates/ignore",
+          204,
+          interface.post_json("/duplicates/ignore", pair));
+    check("POST",
+          "/duplicates/ignore",
+          404,
+          interface.post_json("/duplicates/ignore", {{"ids", {1, 77}}}));
+    EXPECT_EQ(
+        violation(pair, document()["components"]["schemas"]["IgnoreRequest"], document()),
+        std::nullopt);
+    check("GET", "/clusters", 200, interface.get("/clusters?count=2"));
+    check("GET", "/clusters", 400, interface.get("/clusters?count=0"));
 }
 
 TEST(Openapi, RequestsThatAreTakenAreDescribed) {

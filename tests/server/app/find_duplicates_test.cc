@@ -65,7 +65,8 @@ class FindDuplicatesTest : public testing::Test {
     }
     std::vector<Pair> stored() {
         std::vector<Pair> pairs;
-        for (const schema::DuplicatePair& pair : other_->duplicates().pairs(0).value())
+        const auto found = other_->duplicates().pairs(0);
+        for (const schema::DuplicatePair& pair : found.value())
             pairs.emplace_back(pair.a, pair.b, pair.level, pair.similarity);
         return pairs;
     }

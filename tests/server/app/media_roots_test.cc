@@ -94,6 +94,29 @@ TEST_F(MediaRootsTest, AnAddressOfNoFileOfThisMachineIsNotFound) {
     }
 }
 
+TEST_F(MediaRootsTest, APathLeadsToWhatLiesBelowARoot) {
+    const MediaRoots media = roots();
+    const auto real = [&](const std::string& name) {
+        return media.locate_path(folder_.file(name));
+    };
+    EXPECT_EQ(real("pictures").value(), (real_ / "pictures").string());
+    EXPECT_EQ(real("pictures/deep/../inside.jpg").value(),
+              (real_ / "pictures/a b.jpg").string());
+    for (const char* name : {"",
+                             "secret.jpg",
+                             "pictures-not",
+                             "pictures/../secret.jpg",
+                             "pictures/escape.jpg",
+                             "pictures/up",
+                             "gone"})
+        EXPECT_EQ(real(name).error().code, ErrorCode::kForbidden) << name;
+    EXPECT_EQ(real("pictures/gone").error().code, ErrorCode::kNotFound);
+    for (const std::string path : {std::string(),
+                                   std::string("pictures"),
+                                   folder_.file("pictures") + std::string(1, '\0')})
+        EXPECT_EQ(media.locate_path(path).error().code, ErrorCode::kInvalidArgument);
+}
+
 TEST_F(MediaRootsTest, WithoutRootsEveryFileIsForbidden) {
     const auto none = MediaRoots::open({});
     ASSERT_TRUE(none);

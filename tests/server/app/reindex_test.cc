@@ -114,7 +114,8 @@ TEST_F(ReindexTest, ARunningServiceFindsThePicturesUnderTheirNewKind) {
     use_kind("lab", kLab);
     ASSERT_EQ(reindex(R"({"profile":"lab"})").counts.updated, 2);
     EXPECT_TRUE(becomes_true([&] {
-        for (const auto& [name, count] : collection_.service->status().value().variants)
+        const ServiceStatus status = collection_.service->status().value();
+        for (const auto& [name, count] : status.variants)
             if (name == "lab-standard" && count == 2) return true;
         return false;
     }));
