@@ -361,11 +361,22 @@ Result<TrainingReport> train(std::span<const TrainingPair> pairs,
     for (const TrainingPair* pair : tested) {
         report.held_back.pairs.push_back(std::size_t(pair - pairs.data()));
     }
-    const RankSummary& before = report.held_back.before_summary;
-    const RankSummary& after = report.held_back.after_summary;
-    report.better = after.mean_reciprocal_rank >= before.mean_reciprocal_rank &&
-                    after.top_20 >= before.top_20;
+    report.better =
+        keeps_up(report.held_back.before_summary, report.held_back.after_summary);
     return report;
+}
+
+std::vector<std::int64_t> target_ranks(std::span<const TrainingPair> pairs,
+                                       std::span<const Signature> mismatches,
+                                       const Profile& profile) {
+    std::vector<const TrainingPair*> all;
+    for (const TrainingPair& pair : pairs) all.push_back(&pair);
+    return Ranking(all, mismatches, profile).ranks(profile);
+}
+
+bool keeps_up(const RankSummary& before, const RankSummary& after) {
+    return after.mean_reciprocal_rank >= before.mean_reciprocal_rank &&
+           after.top_20 >= before.top_20;
 }
 
 }  // namespace haarmony::image

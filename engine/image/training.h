@@ -67,9 +67,7 @@ struct TrainingReport {
     int iterations = 0;
     bool converged = false;
     HeldBackRanks held_back;
-    // The mean reciprocal rank of the held-back pairs did not fall, nor did their share
-    // within the top 20: the base may be replaced.
-    bool better = false;
+    bool better = false;  // keeps_up() with the base on the pairs that were held back
 };
 
 // Fits on one part of the pairs, ranks with the other. Targets are ranked among the
@@ -80,6 +78,17 @@ struct TrainingReport {
                                            std::span<const Signature> mismatches,
                                            const Profile& base,
                                            const TrainingOptions& options);
+
+// The rank of each pair's target under a profile, as held_back has them: to compare the
+// fitted profile with one that is no base. Requires: all signatures of the profile's kind.
+[[nodiscard]] std::vector<std::int64_t> target_ranks(
+    std::span<const TrainingPair> pairs,
+    std::span<const Signature> mismatches,
+    const Profile& profile);
+
+// Whether a profile with the ranks `after` may replace one with the ranks `before`: neither
+// the mean reciprocal rank nor the share within the top 20 fell.
+[[nodiscard]] bool keeps_up(const RankSummary& before, const RankSummary& after);
 
 // The features t_k of one row, [channel][bin], both signatures cut at profile.m.
 [[nodiscard]] RealWeights training_features(const Signature& query,

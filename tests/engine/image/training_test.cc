@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "engine/image/metric.h"
@@ -146,6 +147,27 @@ TEST(Training, RanksAreThoseOfTheMetric) {
     EXPECT_EQ(held_back.after, literal_ranks(from, held_back.pairs, report->profile));
     EXPECT_EQ(held_back.before_summary, summarize(held_back.before, 85));
     EXPECT_EQ(held_back.after_summary, summarize(held_back.after, 85));
+}
+
+TEST(Training, RanksOfAnyProfileAreThoseOfTheMetric) {
+    const Material from = material(101, 24, 60, 0.4);
+    std::vector<std::size_t> all(from.pairs.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const Profile scanned = *built_in_profile("scanned");
+    EXPECT_EQ(target_ranks(from.pairs, from.mismatches, scanned),
+              literal_ranks(from, all, scanned));
+}
+
+TEST(Training, KeepingUpIsInBothMeasures) {
+    const RankSummary before{.top_20 = 0.5, .mean_reciprocal_rank = 0.25};
+    RankSummary after = before;
+    EXPECT_TRUE(keeps_up(before, after));
+    after.top_20 = 0.4;
+    EXPECT_FALSE(keeps_up(before, after));
+    after = {.top_20 = 0.75, .mean_reciprocal_rank = 0.2};
+    EXPECT_FALSE(keeps_up(before, after));
+    after.mean_reciprocal_rank = 0.3;
+    EXPECT_TRUE(keeps_up(before, after));
 }
 
 TEST(Training, CoefficientWeightsAddUpToTheBases) {
