@@ -191,6 +191,37 @@ Result<void> ImageService::remove_profile(std::string_view name) {
         [&](Connection& connection) { return connection.profiles().remove(name); });
 }
 
+Result<ProfileTraining> ImageService::train_profile(const std::vector<QueryPair>& pairs,
+                                                    const ProfileFitOptions& options) {
+    auto fit = consult(
+        [&](Connection& connection) { return fit_profile(connection, pairs, options); });
+    if (!fit) return std::move(fit).error();
+    const auto stored = record([&](Connection& connection) {
+        return store_fit(connection, fit.value(), options);
+    });
+    if (!stored) return stored.error();
+    return ProfileTraining{std::move(fit).value(), stored.value()};
+}
+
+Result<std::int64_t> ImageService::add_feedback(const schema::NewFeedback& feedback) {
+    return record(
+        [&](Connection& connection) { return connection.feedback().add(feedback); });
+}
+
+Result<std::vector<schema::Feedback>> ImageService::feedback(
+    std::optional<std::string_view> kind,
+    std::optional<std::int64_t> after,
+    int limit) {
+    return consult([&](Connection& connection) {
+        return connection.feedback().list(kind, after, limit);
+    });
+}
+
+Result<void> ImageService::remove_feedback(std::int64_t id) {
+    return record(
+        [&](Connection& connection) { return connection.feedback().remove(id); });
+}
+
 std::int64_t ImageService::searchable(std::string_view variant) const {
     const Snapshots snapshots = follower_->snapshots();
     const auto found = snapshots.find(variant);

@@ -29,6 +29,7 @@
 #include "server/app/image_search.h"
 #include "server/app/index_follower.h"
 #include "server/app/picture_reader.h"
+#include "server/app/profile_training.h"
 
 namespace haarmony::server {
 
@@ -72,6 +73,11 @@ struct PutProfile {
     bool created = false;  // no profile had that name
 };
 
+struct ProfileTraining {
+    ProfileFit fit;
+    bool stored = false;
+};
+
 class ImageService {
   public:
     // Creates or migrates the database and starts to load it.
@@ -101,6 +107,19 @@ class ImageService {
     // Inserts or replaces. kConflict for the name of a built-in profile, here and below.
     [[nodiscard]] Result<PutProfile> put_profile(const image::Profile& profile);
     [[nodiscard]] Result<void> remove_profile(std::string_view name);
+    // Fits and, where it may be, stores (profile_training.h).
+    [[nodiscard]] Result<ProfileTraining> train_profile(
+        const std::vector<QueryPair>& pairs,
+        const ProfileFitOptions& options);
+
+    // Training pairs, as schema/feedback_store.h.
+    [[nodiscard]] Result<std::int64_t> add_feedback(const schema::NewFeedback& feedback);
+    [[nodiscard]] Result<std::vector<schema::Feedback>> feedback(
+        std::optional<std::string_view> kind,
+        std::optional<std::int64_t> after,
+        int limit);
+    [[nodiscard]] Result<void> remove_feedback(std::int64_t id);
+
     // How many pictures the index of that variant (ingest/variant.h) can find.
     [[nodiscard]] std::int64_t searchable(std::string_view variant) const;
 
