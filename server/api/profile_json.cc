@@ -136,6 +136,16 @@ bool is_word(std::string_view text) {
            });
 }
 
+std::optional<http::Problem> refuse_name(const std::string& name) {
+    if (is_word(name)) return {};
+    return http::Problem{
+        400,
+        "invalid_argument",
+        "the name '" + name.substr(0, 80) + "' is not 1 to 64 of a-z, 0-9, _ and -",
+        "name",
+        {}};
+}
+
 image::Profile read_profile(Inputs& inputs,
                             const std::string& name,
                             const image::Profile& defaults) {

@@ -31,6 +31,8 @@ namespace haarmony::server {
 
 // 1 to 64 of a-z, 0-9, '_' and '-': what names profiles and kinds of feedback.
 [[nodiscard]] bool is_word(std::string_view text);
+// 400 for what can be no profile's name.
+[[nodiscard]] std::optional<http::Problem> refuse_name(const std::string& name);
 
 // The profile `name` that the members describe; what they leave out is that of `defaults`.
 // A calibration belongs to one metric: it is taken over only where nothing else is given.

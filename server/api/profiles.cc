@@ -80,11 +80,7 @@ Reply get_profile(const Context& context, const http::Request& request) {
 
 Reply put_profile(const Context& context, const http::Request& request) {
     const std::string& name = name_of(request);
-    if (!is_word(name))
-        return Error{
-            ErrorCode::kInvalidArgument,
-            "the name '" + name.substr(0, 80) + "' is not 1 to 64 of a-z, 0-9, _ and -",
-            "name"};
+    if (auto problem = refuse_name(name)) return *std::move(problem);
     auto inputs = Inputs::of_request(request);
     if (!inputs) return inputs.problem();
     if (inputs->picture())

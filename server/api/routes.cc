@@ -5,6 +5,7 @@
 
 #include "server/api/clusters.h"
 #include "server/api/duplicates.h"
+#include "server/api/feedback.h"
 #include "server/api/image_media.h"
 #include "server/api/image_upload.h"
 #include "server/api/images.h"
@@ -13,6 +14,7 @@
 #include "server/api/profiles.h"
 #include "server/api/query.h"
 #include "server/api/status.h"
+#include "server/api/training.h"
 
 namespace haarmony::server {
 namespace {
@@ -66,6 +68,16 @@ constexpr std::array kRoutes{
     Route{"GET", "/jobs/{id}", Cost::kCheap, Body::kNone, false, get_job},
     Route{"DELETE", "/jobs/{id}", Cost::kCheap, Body::kNone, false, delete_job},
     Route{"GET", "/jobs/{id}/events", Cost::kCheap, Body::kNone, false, get_job_events},
+    Route{"POST",
+          "/profiles/{name}/train",
+          Cost::kCostly,
+          Body::kPicture,
+          false,
+          post_training},
+    Route{"GET", "/feedback", Cost::kCheap, Body::kNone, false, list_feedback},
+    Route{"POST", "/feedback", Cost::kCheap, Body::kPicture, false, post_feedback},
+    Route{"DELETE", "/feedback/{id}", Cost::kCheap, Body::kNone, false, delete_feedback},
+    Route{"GET", "/feedback/export", Cost::kCheap, Body::kNone, false, export_feedback},
     Route{"GET", "/healthz", Cost::kCheap, Body::kNone, true, get_health},
     Route{"GET", "/readyz", Cost::kCheap, Body::kNone, true, get_readiness},
     Route{"GET", "/status", Cost::kCheap, Body::kNone, false, get_status},

@@ -33,7 +33,8 @@ class ProfilesTest : public testing::Test {
         return ids;
     }
     void spoil(const std::string& sql) {
-        schema::RawConnection raw(interface_.collection.path());
+        const schema::RawConnection raw(interface_.collection.path());
+        schema::run_sql(raw.handle(), "PRAGMA busy_timeout = 5000");
         schema::run_sql(raw.handle(), sql);
     }
 
