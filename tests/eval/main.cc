@@ -7,6 +7,7 @@
 
 #include "tests/eval/copies.h"
 #include "tests/eval/figures.h"
+#include "tests/eval/train_profile.h"
 #include "tests/eval/worker_threads.h"
 
 namespace {
@@ -81,10 +82,29 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
 
+    haarmony::eval::TrainProfileOptions training;
+    CLI::App* train = app.add_subcommand(
+        "train",
+        "fits a profile to training pairs and stores it; exit code 1: it would be worse");
+    train->add_option("--db", training.database, "the database")->required();
+    train->add_option("--pairs", training.pairs, "JSON lines, as GET /feedback/export")
+        ->required();
+    train->add_option("--profile", training.profile, "its name")->required();
+    train->add_option("--base", training.base, "the profile to start from")
+        ->capture_default_str();
+    train->add_option("--kind", training.kind, "only pairs of this kind");
+    train->add_option("--seed", training.seed, "of everything random")
+        ->capture_default_str();
+    train->add_flag("--replace-worse",
+                    training.replace_worse,
+                    "stores it whatever the profile of that name is worth");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    if (train->parsed())
+        return haarmony::eval::train_profile(training, std::cout, std::cerr);
     return copies->parsed() ? run_copies(copies_options) : run_figures(command);
 }
