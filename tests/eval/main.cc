@@ -7,6 +7,7 @@
 
 #include "tests/eval/copies.h"
 #include "tests/eval/figures.h"
+#include "tests/eval/replay.h"
 #include "tests/eval/train_profile.h"
 #include "tests/eval/worker_threads.h"
 
@@ -99,6 +100,21 @@ int main(int argc, char** argv) {
                     training.replace_worse,
                     "stores it whatever the profile of that name is worth");
 
+    haarmony::eval::ReplayOptions replay_options;
+    CLI::App* replay = app.add_subcommand(
+        "replay", "paints the logged paintings again: strokes until the target is found");
+    replay->add_option("--db", replay_options.database, "the database")->required();
+    replay->add_option("--profile", replay_options.profile, "how to compare")
+        ->capture_default_str();
+    replay->add_option("--m", replay_options.m, "coefficients per channel")
+        ->check(CLI::Range(1, haarmony::image::kMaxCoefficients))
+        ->capture_default_str();
+    replay->add_option("--databases", replay_options.databases, "nested sizes")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    replay->add_option("--seed", replay_options.seed, "of who is in which database")
+        ->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -106,5 +122,9 @@ int main(int argc, char** argv) {
     }
     if (train->parsed())
         return haarmony::eval::train_profile(training, std::cout, std::cerr);
+    if (replay->parsed()) {
+        const auto replayed = haarmony::eval::replay_database(replay_options, std::cout);
+        return replayed ? 0 : failed(replayed.error());
+    }
     return copies->parsed() ? run_copies(copies_options) : run_figures(command);
 }
