@@ -2,6 +2,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -51,6 +52,27 @@ Result<image::Profile> defaults_of(const Context& context,
     auto replaced = context.images.profile(name);
     if (replaced || replaced.error().code != ErrorCode::kNotFound) return replaced;
     return *image::built_in_profile(kBuiltIn.front());
+}
+
+// The job that gives stored pictures the signatures that the profile compares; nothing where
+// all have them. One that waits already is as good as a new one; one that runs has read the
+// profile as it was.
+Result<std::optional<std::int64_t>> reindex_job(const Context& context,
+                                                const image::Profile& profile) {
+    constexpr int kLatest = 100;
+    const auto lacking = context.images.lacks(profile.kind);
+    if (!lacking) return lacking.error();
+    if (!lacking.value()) return std::optional<std::int64_t>();
+    const std::string request = json{{"profile", profile.name}}.dump();
+    const auto jobs = context.jobs.list(kLatest, {});
+    if (!jobs) return jobs.error();
+    for (const schema::Job& job : jobs.value())
+        if (job.type == "reindex" && job.state == schema::JobState::kQueued &&
+            job.request == request)
+            return std::optional(job.id);
+    const auto job = context.jobs.create("reindex", request);
+    if (!job) return job.error();
+    return std::optional(job->id);
 }
 
 }  // namespace

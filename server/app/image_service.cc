@@ -222,6 +222,17 @@ Result<void> ImageService::remove_feedback(std::int64_t id) {
         [&](Connection& connection) { return connection.feedback().remove(id); });
 }
 
+Result<bool> ImageService::lacks(const image::SignatureKind& kind) {
+    const std::string variant = ingest::variant_name(kind, ingest::Look::kWhole);
+    // Which is a column of every row that can be searched.
+    if (variant == ingest::kMainVariant) return false;
+    const auto without = read([&](schema::ImageStore& images) {
+        return images.without_variant(variant, {}, 1);
+    });
+    if (!without) return without.error();
+    return !without->empty();
+}
+
 std::int64_t ImageService::searchable(std::string_view variant) const {
     const Snapshots snapshots = follower_->snapshots();
     const auto found = snapshots.find(variant);

@@ -120,6 +120,8 @@ class ImageService {
         int limit);
     [[nodiscard]] Result<void> remove_feedback(std::int64_t id);
 
+    // Whether some picture that can be searched has no signature of that kind.
+    [[nodiscard]] Result<bool> lacks(const image::SignatureKind& kind);
     // How many pictures the index of that variant (ingest/variant.h) can find.
     [[nodiscard]] std::int64_t searchable(std::string_view variant) const;
 

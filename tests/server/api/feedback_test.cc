@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "server/api/training_pair_json.h"
-#include "tests/schema/raw_sql.h"
 #include "tests/server/api/interface.h"
 
 namespace haarmony::server {
@@ -55,11 +54,6 @@ class FeedbackTest : public testing::Test {
     }
     json listed(const std::string& parameters = "") {
         return json_of(interface_.get("/feedback" + parameters))["items"];
-    }
-    void spoil(const std::string& sql) {
-        const schema::RawConnection raw(interface_.collection.path());
-        schema::run_sql(raw.handle(), "PRAGMA busy_timeout = 5000");
-        schema::run_sql(raw.handle(), sql);
     }
 
     Interface interface_;
@@ -220,8 +214,8 @@ TEST_F(FeedbackTest, WhatCannotBeReadIsShownAsNothingAndNotExported) {
     log({{"signature", opaque(1)}, {"target", 2}});
     log({{"strokes", drawing()}, {"target", 2}});
     log({{"signature", opaque(1)}, {"target", 1}});
-    spoil("UPDATE feedback SET signature = x'00' WHERE id = 1");
-    spoil("UPDATE feedback SET strokes = '{\"a\":1}' WHERE id = 2");
+    interface_.sql("UPDATE feedback SET signature = x'00' WHERE id = 1");
+    interface_.sql("UPDATE feedback SET strokes = '{\"a\":1}' WHERE id = 2");
     const json items = listed();
     ASSERT_EQ(items.size(), 3U);
     EXPECT_TRUE(items[0]["signature"].is_null());
@@ -236,7 +230,7 @@ TEST_F(FeedbackTest, AFailureOfTheDatabaseIsAFailureOfTheServer) {
     http::Response response;
     for (int i = 0; i < 101; ++i) log({{"signature", text}, {"target", 2}});
     response = interface_.get("/feedback/export");
-    spoil("ALTER TABLE feedback RENAME TO gone");
+    interface_.sql("ALTER TABLE feedback RENAME TO gone");
     EXPECT_EQ(interface_.get("/feedback").status, 500);
     EXPECT_EQ(interface_.get("/feedback/export").status, 500);
     EXPECT_EQ(interface_.send("DELETE", "/feedback/1").status, 500);

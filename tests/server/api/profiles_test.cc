@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/image/profile.h"
-#include "tests/schema/raw_sql.h"
 #include "tests/server/api/interface.h"
 
 namespace haarmony::server {
@@ -32,11 +31,8 @@ class ProfilesTest : public testing::Test {
             ids.push_back({match["id"], match["distance"]});
         return ids;
     }
-    void spoil(const std::string& sql) {
-        const schema::RawConnection raw(interface_.collection.path());
-        schema::run_sql(raw.handle(), "PRAGMA busy_timeout = 5000");
-        schema::run_sql(raw.handle(), sql);
-    }
+    // What is queued waits for ever.
+    void stop_jobs() { interface_.jobs->stop(); }
 
     Interface interface_;
 };
@@ -65,12 +61,50 @@ TEST_F(ProfilesTest, BuiltInOnesComeFirstWithTheWeightsOfTable41) {
 TEST_F(ProfilesTest, SaysHowManyPicturesCanBeSearchedUnderIt) {
     interface_.collection.add(1);
     interface_.collection.add(2);
+    stop_jobs();
     ASSERT_EQ(put("mine", {{"color_space", "lab"}}).status, 201);
     EXPECT_EQ(profile("painted")["indexed"], 2);
     EXPECT_EQ(profile("mine")["indexed"], 0);
     interface_.collection.add(3);  // gets the signatures of all kinds in use
     EXPECT_EQ(profile("painted")["indexed"], 3);
     EXPECT_EQ(profile("mine")["indexed"], 1);
+}
+
+TEST_F(ProfilesTest, AJobMakesTheSignaturesThatStoredPicturesLack) {
+    interface_.collection.add(1);
+    interface_.collection.add(2);
+    const json reply = json_of(put("mine", {{"decomposition", "nonstandard"}}));
+    ASSERT_TRUE(reply.contains("reindex_job")) << reply;
+    const std::string job = "/jobs/" + std::to_string(reply["reindex_job"].get<int>());
+    EXPECT_EQ(json_of(interface_.get(job))["type"], "reindex");
+    ASSERT_TRUE(
+        becomes_true([&] { return json_of(interface_.get(job))["state"] == "done"; }));
+    ASSERT_TRUE(becomes_true([&] { return profile("mine")["indexed"] == 2; }));
+    // Nothing is lacking any more.
+    EXPECT_FALSE(json_of(put("mine", {{"m", 9}})).contains("reindex_job"));
+}
+
+TEST_F(ProfilesTest, OnlyWhatIsLackingIsMade) {
+    stop_jobs();
+    EXPECT_FALSE(json_of(put("lab", {{"color_space", "lab"}})).contains("reindex_job"));
+    interface_.collection.add(1);
+    EXPECT_FALSE(json_of(put("lab", json::object())).contains("reindex_job"));
+    EXPECT_FALSE(json_of(put("yiq", json::object())).contains("reindex_job"));
+    const json first = json_of(put("luv", {{"color_space", "luv"}}));
+    ASSERT_TRUE(first.contains("reindex_job"));
+    // One that waits is enough, for one profile.
+    EXPECT_EQ(json_of(put("luv", {{"m", 9}}))["reindex_job"], first["reindex_job"]);
+    EXPECT_NE(json_of(put("luv2", {{"base", "luv"}}))["reindex_job"],
+              first["reindex_job"]);
+}
+
+TEST_F(ProfilesTest, AJobThatCannotBeQueuedIsAFailureOfTheServer) {
+    interface_.collection.add(1);
+    stop_jobs();
+    interface_.sql("ALTER TABLE jobs RENAME TO gone");
+    EXPECT_EQ(put("mine", {{"color_space", "lab"}}).status, 500);
+    interface_.sql("ALTER TABLE image_signatures RENAME TO lost");
+    EXPECT_EQ(put("mine", {{"color_space", "lab"}}).status, 500);
 }
 
 TEST_F(ProfilesTest, WhatIsPutIsWhatIsRead) {
@@ -247,7 +281,7 @@ TEST_F(ProfilesTest, TagsChangeWithTheProfile) {
 // Another version may have written it.
 TEST_F(ProfilesTest, OneThatIsNotUnderstoodIsShownAndReplacedOnlyWithABase) {
     ASSERT_EQ(put("mine", {{"m", 7}}).status, 201);
-    spoil("UPDATE profiles SET color_space = 'oklab'");
+    interface_.sql("UPDATE profiles SET color_space = 'oklab'");
     EXPECT_EQ(profile("mine")["color_space"], "oklab");
     EXPECT_EQ(profile("mine")["indexed"], 0);
     EXPECT_EQ(refusal_of(put("mine", {{"m", 8}})),
@@ -260,7 +294,7 @@ TEST_F(ProfilesTest, OneThatIsNotUnderstoodIsShownAndReplacedOnlyWithABase) {
 
 TEST_F(ProfilesTest, WhatTheDatabaseCannotReadIsAFailureOfTheServer) {
     ASSERT_EQ(put("mine", json::object()).status, 201);
-    spoil(
+    interface_.sql(
         "UPDATE profiles SET weights = '[[1,1,1,1,1,1],[1,1,1,1,1,1],[1,1,1,1,1,0.5]]'");
     for (const std::string target : {"/profiles", "/profiles/mine"})
         EXPECT_EQ(refusal_of(interface_.get(target)), (Refusal{500, "internal", ""}));

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/schema/raw_sql.h"
 #include "tests/server/api/interface.h"
 
 namespace haarmony::server {
@@ -44,11 +43,6 @@ class TrainingTest : public testing::Test {
     }
     json profile(const std::string& name = "mine") {
         return json_of(interface_.get("/profiles/" + name));
-    }
-    void spoil(const std::string& sql) {
-        const schema::RawConnection raw(interface_.collection.path());
-        schema::run_sql(raw.handle(), "PRAGMA busy_timeout = 5000");
-        schema::run_sql(raw.handle(), sql);
     }
 
     Interface interface_;
@@ -224,7 +218,7 @@ TEST_F(TrainingTest, TooFewPairsAreCounted) {
     EXPECT_EQ(interface_.get("/profiles/mine").status, 404);
 
     log(pairs(20));
-    spoil("UPDATE feedback SET signature = x'00' WHERE id = 7");
+    interface_.sql("UPDATE feedback SET signature = x'00' WHERE id = 7");
     EXPECT_NE(body_of(train(json::object())).find("19 pairs: at least 20"),
               std::string::npos);
 }
@@ -263,7 +257,7 @@ TEST_F(TrainingTest, EveryBadMemberIsNamed) {
 }
 
 TEST_F(TrainingTest, ATargetWithADamagedSignatureIsNamed) {
-    spoil("UPDATE images SET signature = x'00' WHERE id = 3");
+    interface_.sql("UPDATE images SET signature = x'00' WHERE id = 3");
     EXPECT_EQ(refusal_of(train({{"pairs", pairs(24)}})),
               (Refusal{422, "undecodable", "pairs[2]"}));
     log(pairs(24));
@@ -271,9 +265,9 @@ TEST_F(TrainingTest, ATargetWithADamagedSignatureIsNamed) {
 }
 
 TEST_F(TrainingTest, AFailureOfTheDatabaseIsAFailureOfTheServer) {
-    spoil("ALTER TABLE feedback RENAME TO gone");
+    interface_.sql("ALTER TABLE feedback RENAME TO gone");
     EXPECT_EQ(train(json::object()).status, 500);
-    spoil("ALTER TABLE profiles RENAME TO lost");
+    interface_.sql("ALTER TABLE profiles RENAME TO lost");
     EXPECT_EQ(train({{"pairs", pairs(24)}}).status, 500);
 }
 
