@@ -65,8 +65,10 @@ Result<Signature> query_signature(const QueryPair& pair, const SignatureKind& ki
                          ", and the profile compares " + image::kind_name(kind)};
     const image::Raster painted = image::rasterize(*pair.strokes);
     const ImageView view = painted.view();
-    return checked(
-        look_at(view, view.width, view.height, {.kinds = {kind}}).signatures.at(kind));
+    const QueryPicture picture =
+        look_at(view, view.width, view.height, {.kinds = {kind}});
+    // One: the drawing is no part of something larger.
+    return checked(picture.signatures.at(kind).front());
 }
 
 Result<image::TrainingPair> training_pair(schema::ImageStore& images,
