@@ -291,6 +291,34 @@ TEST_F(JobRunnerTest, ADatabaseThatFailsIsTriedAgain) {
     spdlog::default_logger()->sinks().pop_back();
 }
 
+TEST_F(JobRunnerTest, ProgressIsWrittenNowAndThenAndWhollyWhenItIsAskedFor) {
+    const auto connection = beside(collection_);
+    const std::int64_t id = connection->jobs().create("any", "{}")->id;
+    ASSERT_TRUE(connection->jobs().start(id));
+    const std::atomic<bool> stop{false};
+    JobContext job(*connection, stored(id), stop, std::chrono::hours(1));
+    for (int i = 0; i < 100; ++i) {
+        ++job.counts().seen;
+        job.progress();
+    }
+    EXPECT_EQ(stored(id).counts.seen, 1);
+    ASSERT_TRUE(job.write());
+    EXPECT_EQ(stored(id).counts.seen, 100);
+}
+
+TEST_F(JobRunnerTest, AProgressThatCannotBeWrittenIsLoggedAndTheJobGoesOn) {
+    const auto log = std::make_shared<LogCount>("event=job_progress_not_written");
+    spdlog::default_logger()->sinks().push_back(log);
+    const auto connection = beside(collection_);
+    const std::int64_t id = connection->jobs().create("any", "{}")->id;
+    const std::atomic<bool> stop{false};
+    JobContext job(*connection, stored(id), stop, std::chrono::milliseconds(0));
+    job.progress();  // it is queued, so that the table refuses it
+    EXPECT_EQ(log->count(), 1);
+    EXPECT_FALSE(job.cancelled());
+    spdlog::default_logger()->sinks().pop_back();
+}
+
 TEST_F(JobRunnerTest, AFileThatIsNoDatabaseIsRefused) {
     schema::write_bytes(collection_.folder.file("text.db"), "this is no database at all");
     JobRunnerOptions options;
