@@ -6,19 +6,19 @@
 //   #signature=...&profile=...  a painting or a file, as the opaque string of its reply
 //   &orientations=mirror&...    how the search differs from the plain one
 //   #overview=24                the collection in 24 groups
-//   #duplicates=near            pictures that are there more than once, of one level or of all
+//   #duplicates=near            pictures that are there more than once, at least so alike
 
 import { kProfileName, readOptions, writeOptions } from './search_options.js';
 
 /** @typedef {import('./search_options.js').Options} Options */
 /** @typedef {({id: number} | {signature: string}) & {profile: string, options?: Options}} Shared */
-/** @typedef {'exact' | 'near' | 'similar' | 'all'} Level */
+/** @typedef {'exact' | 'near' | 'all'} Level */
 /** @typedef {{screen: 'overview', count: number} | {screen: 'duplicates', level: Level}} Stop */
 
 const kLongestSignature = 8000;
-const kMostGroups = 200;
+const kMostGroups = 100;
 /** @type {Level[]} */
-const kLevels = ['all', 'exact', 'near', 'similar'];
+const kLevels = ['all', 'near', 'exact'];
 
 /**
  * @param {Shared} search

@@ -7,10 +7,10 @@ import { byId, make } from './dom.js';
 import { Refused } from './failures.js';
 import { JobWatch } from './job_watch.js';
 import { thumbLink } from './thumb_link.js';
-import { counted, decoded, nameOf, percent } from './wording.js';
+import { counted, decoded, grouped, nameOf, percent } from './wording.js';
 
 /** @typedef {import('./api.js').Picture} Picture */
-/** @typedef {import('./address.js').Level} Level */
+/** @typedef {import('./address.js').Level} Level the least alike that are shown */
 /** @typedef {import('./job_watch.js').Job} Job */
 /** @typedef {{level: string, similarity: number, ids: number[], images: Picture[]}} Group */
 /** @typedef {{items: Group[], next_cursor?: string | null, as_of?: string | null}} Page */
@@ -239,11 +239,12 @@ export class Duplicates {
 }
 
 /** @param {Job} job */
-export function progressOf({ state, counts = {}, eta_s: eta }) {
+export function progressOf({ state, counts = {}, total, eta_s: eta }) {
   if (state === 'queued') return 'Waiting for its turn …';
   const seen = counts.seen ?? 0;
   const rest = eta ? `, about ${counted(Math.ceil(eta), 'second', 'seconds')} left` : '';
-  return `${counted(seen, 'picture', 'pictures')} compared${rest}`;
+  const done = total ? `${grouped(seen)} of ${counted(total, 'picture', 'pictures')}` : counted(seen, 'picture', 'pictures');
+  return `${done} compared${rest}`;
 }
 
 /** @param {Job} job one that has ended without being done */

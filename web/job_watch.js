@@ -8,7 +8,7 @@ import { Refused } from './failures.js';
  * @property {number | string} id
  * @property {'queued' | 'running' | 'done' | 'failed' | 'cancelled'} state
  * @property {Record<string, number>} [counts]
- * @property {number} [total]
+ * @property {number | null} [total]
  * @property {number | null} [eta_s]
  * @property {unknown[]} [errors]
  */
@@ -19,8 +19,8 @@ import { Refused } from './failures.js';
  */
 
 const kPollMs = 1000;
-/** The names that an event with a job may have. */
-const kEvents = ['message', 'job', 'progress', 'state', 'done', 'failed', 'cancelled'];
+/** The names of the events that carry a job; the second is the last. */
+const kEvents = ['progress', 'end'];
 
 /** @param {Job} job */
 export function hasEnded({ state }) {

@@ -2,13 +2,18 @@
 
 const kCount = new Intl.NumberFormat('en');
 
+/** @param {number} count */
+export function grouped(count) {
+  return kCount.format(count);
+}
+
 /**
  * @param {number} count
  * @param {string} one
  * @param {string} many
  */
 export function counted(count, one, many) {
-  return `${kCount.format(count)} ${count === 1 ? one : many}`;
+  return `${grouped(count)} ${count === 1 ? one : many}`;
 }
 
 /** @param {number} similarity in [0, 1] */

@@ -46,7 +46,9 @@ test('a painting is answered with its strokes, the picture and the time it took'
   assert.deepEqual(features.answers, []);
   await page.locator('#details-answer').click();
   await page.locator('#toast').getByText('Thank you').waitFor();
-  const { strokes, seconds, ...rest } = features.answers[0];
+  /** @type {any} */
+  const answer = features.answers[0];
+  const { strokes, seconds, ...rest } = answer;
   assert.deepEqual(rest, { target: Number(opened.match(/\d+/)), kind: 'painted' });
   assert.ok(seconds >= 0 && seconds < 600, `${seconds}`);
   const { items, ...frame } = strokes;

@@ -202,6 +202,7 @@ function overlaps() {
   if (!findings || scrollY > 0) return []; // where they are stacked, results scroll below
   const parts = [...document.querySelectorAll('.studio canvas, .studio .tool, .studio .custom, .studio .button')];
   return parts
+    .filter((part) => part.checkVisibility()) // not in a closed fold
     .filter((part) => {
       const box = part.getBoundingClientRect();
       return box.right > findings.left && box.bottom > findings.top && box.top < findings.bottom;

@@ -49,7 +49,7 @@ test('what is no address of a search is none', () => {
 test('a screen has an address', () => {
   for (const stop of /** @type {Stop[]} */ ([
     { screen: 'overview', count: 1 },
-    { screen: 'overview', count: 200 },
+    { screen: 'overview', count: 100 },
     { screen: 'duplicates', level: 'all' },
     { screen: 'duplicates', level: 'near' },
   ])) {
@@ -59,7 +59,7 @@ test('a screen has an address', () => {
 
 test('what is no address of a screen is none', () => {
   for (const fragment of [
-    '', '#', '#overview', '#overview=', '#overview=0', '#overview=201', '#overview=1e1', '#overview=all',
+    '', '#', '#overview', '#overview=', '#overview=0', '#overview=101', '#overview=1e1', '#overview=all',
     '#duplicates', '#duplicates=', '#duplicates=far', '#duplicates=3', '#id=1',
   ]) {
     assert.equal(stopFromFragment(fragment), null, fragment);

@@ -27,8 +27,8 @@ test('without pairs held back there is nothing to compare', () => {
 test('progress says what is known', () => {
   assert.equal(progressOf({ id: 1, state: 'queued' }), 'Waiting for its turn …');
   assert.equal(progressOf({ id: 1, state: 'running' }), '0 pictures compared');
-  const job = /** @type {const} */ ({ id: 1, state: 'running', counts: { seen: 1200 }, eta_s: 2.2 });
-  assert.equal(progressOf(job), '1,200 pictures compared, about 3 seconds left');
+  const job = /** @type {const} */ ({ id: 1, state: 'running', counts: { seen: 1200 }, total: 3000, eta_s: 2.2 });
+  assert.equal(progressOf(job), '1,200 of 3,000 pictures compared, about 3 seconds left');
 });
 
 test('an end that is none is told with its first reason', () => {

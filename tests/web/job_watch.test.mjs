@@ -57,12 +57,12 @@ const job = (state) => ({ id: 1, state });
 test('events are told until the job ends', () => {
   const line = new Line();
   const { told } = bench(unasked, line);
-  line.send('message', JSON.stringify(job('queued')));
+  line.send('progress', JSON.stringify(job('queued')));
   line.send('progress', JSON.stringify(job('running')));
-  line.send('message', 'no document');
-  line.send('message', '{"percent":3}');
-  line.send('done', JSON.stringify(job('done')));
-  line.send('message', JSON.stringify(job('running')));
+  line.send('progress', 'no document');
+  line.send('progress', '{"percent":3}');
+  line.send('end', JSON.stringify(job('done')));
+  line.send('progress', JSON.stringify(job('running')));
   assert.deepEqual(told, ['queued', 'running', 'done']);
   assert.equal(line.closed, true);
 });

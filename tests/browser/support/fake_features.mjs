@@ -118,7 +118,8 @@ export class FakeFeatures {
   #duplicates(fields) {
     if (!this.found) return { items: [], next_cursor: null, as_of: null };
     const level = fields.get('level');
-    const all = kGroups.filter((group) => level === null || group.level === level);
+    // A level takes in what is more alike than it.
+    const all = kGroups.slice(0, level === null ? 3 : 1 + kGroups.findIndex((group) => group.level === level));
     const from = Number(fields.get('cursor') ?? 0);
     const items = all.slice(from, from + 2).map((group) => ({ ...group, images: group.ids.map(this.#described) }));
     const next = from + 2 < all.length ? String(from + 2) : null;
@@ -126,10 +127,10 @@ export class FakeFeatures {
   }
 
   #job() {
-    const state = this.states.length > 1 ? this.states.shift() : this.states[0];
+    const state = (this.states.length > 1 && this.states.shift()) || this.states[0];
     if (state === 'done') this.found = true;
     const errors = state === 'failed' ? ['the disk is full'] : [];
-    return { id: 7, type: 'find_duplicates', state, counts: { seen: 40 }, eta_s: 3, errors };
+    return { id: 7, type: 'find_duplicates', state, counts: { seen: 40 }, total: 60, eta_s: 3, errors };
   }
 
   /** @param {string} method */
@@ -142,8 +143,11 @@ export class FakeFeatures {
   /** All that is left of the job, at once. */
   #events() {
     const lines = [];
-    do lines.push(`data: ${JSON.stringify(this.#job())}\n\n`);
-    while (this.states.length > 1);
+    do {
+      const job = this.#job();
+      const kind = kEnds.includes(job.state) ? 'end' : 'progress';
+      lines.push(`event: ${kind}\ndata: ${JSON.stringify(job)}\n\n`);
+    } while (this.states.length > 1);
     return lines.join('');
   }
 
@@ -188,6 +192,7 @@ function explanation(id) {
   return { variant: 'yiq-standard', channels, picture: `data:image/png;base64,${png.toString('base64')}` };
 }
 
+const kEnds = ['done', 'failed', 'cancelled'];
 const kStream = { 'Content-Type': 'text/event-stream' };
 const kProfiles = [
   { name: 'painted', built_in: true, indexed: true },
