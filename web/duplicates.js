@@ -147,7 +147,7 @@ export class Duplicates {
       'li',
       {},
       thumbLink(picture, this.#parts.loader, this.#parts.like),
-      make('p', { className: 'copy-name', title }, make('b', {}, name), ` ${size}`),
+      make('p', { className: 'copy-name', title }, make('b', {}, name), size),
       make('p', { className: 'copy-actions' }, other, remove),
     );
     other.addEventListener('click', () => {

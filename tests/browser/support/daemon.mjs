@@ -2,9 +2,9 @@
 // ingested and served.
 
 import { spawn } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { copyFileSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 
@@ -35,10 +35,14 @@ export class GalleryServer {
       .map((name) => join(pictures, name));
   }
 
-  /** @param {number} count */
-  async fill(count) {
+  /**
+   * @param {number} count
+   * @param {number} [copies] so many of the first pictures are there twice
+   */
+  async fill(count, copies = 0) {
     const pictures = join(this.#folder, 'pictures');
     await this.#run('haarmony-gallery', ['--out', pictures, '--count', String(count), '--seed', '1']);
+    for (const file of this.files.slice(0, copies)) copyFileSync(file, join(pictures, `twin-${basename(file)}`));
     await this.#run('haarmony-ingest', ['--db', this.#database, '--progress', 'none', pictures]);
   }
 
