@@ -6,7 +6,7 @@ import { countOptions } from './search_options.js';
 
 /** @typedef {import('./search_options.js').Options} Options */
 /** @typedef {import('./api.js').Source} Source */
-/** @typedef {{name: string, built_in?: boolean, indexed?: boolean}} Profile */
+/** @typedef {{name: string, built_in: boolean, indexed: number}} Profile indexed: pictures that it can find */
 
 /** What each row needs of the server: an option, and a value that it must take. */
 const kNeeds = /** @type {[string, string, unknown][]} */ ([
@@ -58,7 +58,7 @@ export class OptionsPanel extends EventTarget {
    * @param {Profile[]} profiles
    */
   offer(capabilities, profiles) {
-    this.#profiles = profiles.filter(({ indexed }) => indexed !== false);
+    this.#profiles = profiles.filter(({ built_in: builtIn, indexed }) => builtIn || indexed > 0);
     this.#combines = capabilities.takes('combine');
     this.#parts = capabilities.takes('partial', true);
     let any = this.#profiles.length > 0 || this.#parts;

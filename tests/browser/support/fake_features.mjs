@@ -195,11 +195,11 @@ function explanation(id) {
 const kEnds = ['done', 'failed', 'cancelled'];
 const kStream = { 'Content-Type': 'text/event-stream' };
 const kProfiles = [
-  { name: 'painted', built_in: true, indexed: true },
-  { name: 'scanned', built_in: true, indexed: true },
-  { name: 'painted_lab', built_in: false, indexed: true },
-  { name: 'scanned_rgb', built_in: false, indexed: true },
-  { name: 'not_indexed_yet', built_in: false, indexed: false },
+  { name: 'painted', built_in: true, indexed: 60 },
+  { name: 'scanned', built_in: true, indexed: 60 },
+  { name: 'painted_lab', built_in: false, indexed: 60 },
+  { name: 'scanned_rgb', built_in: false, indexed: 60 },
+  { name: 'not_indexed_yet', built_in: false, indexed: 0 },
 ];
 const kGroups = [
   { level: 'exact', similarity: 1, ids: [3, 9] },
