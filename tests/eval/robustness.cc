@@ -49,10 +49,11 @@ std::vector<RobustnessRow> option_rows(const Experiment& experiment,
     std::vector<RobustnessRow> rows;
     auto ranks = by_column(experiment, panel.profiles().size(), [&](std::size_t i) {
         const QueryPicture query = distorted(experiment, distortion, targets[i]);
+        const auto ways = option.ways(query.view(), panel.search().kind());
         Ranks of_query;
         for (const image::Profile& profile : panel.profiles()) {
             of_query.push_back(
-                rank_with(option, panel.search(), query.view(), profile, targets[i]));
+                rank_with(option, ways, panel.search(), profile, targets[i]));
         }
         return of_query;
     });

@@ -21,17 +21,20 @@ namespace haarmony::eval {
 struct SearchOption {
     std::string name;                      // as a client sets it
     std::vector<std::string> distortions;  // the rows it is meant for
-    // The queries that it asks with instead of one.
-    std::function<std::vector<image::Query>(const ImageView&, const image::Profile&)>
+    // What it asks with: the signatures of the query, one a way.
+    std::function<std::vector<image::Signature>(const ImageView&,
+                                                const image::SignatureKind&)>
         ways;
+    bool equal_weights = false;  // every way weighs what the first one does
 };
 
 [[nodiscard]] const std::vector<SearchOption>& search_options();
 
-// The target's rank when every way is asked.
+// The target's rank when every way is asked. Requires: ways of the profile's kind, one at
+// least.
 [[nodiscard]] std::int64_t rank_with(const SearchOption& option,
+                                     const std::vector<image::Signature>& ways,
                                      const WaveletSearch& search,
-                                     const ImageView& query,
                                      const image::Profile& profile,
                                      std::size_t target);
 

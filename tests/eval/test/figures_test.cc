@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -24,11 +25,11 @@ Files run(std::uint64_t seed, int threads) {
     WorkerThreads executor(threads);
     FiguresOptions options;
     options.seed = seed;
-    options.queries = 10;
-    options.m_step = 50;
+    options.queries = 2;
+    options.m_step = 100;
     options.steps = 2;
     const auto made = make_figures(
-        generated_pictures(22), options, executor, [](const std::string&) {});
+        generated_pictures(12), options, executor, [](const std::string&) {});
     EXPECT_TRUE(made);
     Files files;
     for (const OutputFile& file : *made) files[file.name] = file.text;

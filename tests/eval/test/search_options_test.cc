@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/eval/distortions.h"
 #include "tests/eval/test/generated_pictures.h"
 
@@ -15,7 +17,9 @@ const SearchOption& option(const std::string& name) {
 class SearchOptions : public ::testing::Test {
   protected:
     [[nodiscard]] std::int64_t rank(const char* name, const RgbPicture& query) const {
-        return rank_with(option(name), search_, query.view(), profile_, 5);
+        const SearchOption& asked = option(name);
+        return rank_with(
+            asked, asked.ways(query.view(), search_.kind()), search_, profile_, 5);
     }
 
     InlineExecutor executor_;
