@@ -92,7 +92,7 @@ std::vector<Distortion> make_distortions() {
         row("painted 8 x 8", [](P p, R r) { return simulate_painting(p, 8, r); }),
         row("painted 12 x 12", [](P p, R r) { return simulate_painting(p, 12, r); }),
         {"half painted 8 x 8", [](P p, R r) { return simulate_half_painting(p, 8, r); }},
-        row("half painted 8 x 8, rest mean",
+        row("half painted 8 x 8 (rest mean)",
             [](P p, R r) { return fill_with_mean(simulate_half_painting(p, 8, r)); }),
     };
 }

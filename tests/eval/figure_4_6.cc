@@ -48,7 +48,7 @@ Figure46 measure_figure_4_6(const Experiment& experiment, const MetricPanel& pan
 
 std::vector<std::int64_t> curve_places(std::int64_t pictures) {
     std::vector<std::int64_t> places;
-    for (double place = 1; place < static_cast<double>(pictures);) {
+    for (double place = 1; std::llround(place) < pictures;) {
         places.push_back(std::llround(place));
         place = std::max(std::round(place) + 1, place * std::exp2(1.0 / 12));
     }

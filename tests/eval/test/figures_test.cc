@@ -28,8 +28,8 @@ Files run(std::uint64_t seed, int threads) {
     options.queries = 2;
     options.m_step = 100;
     options.steps = 2;
-    const auto made = make_figures(
-        generated_pictures(12), options, executor, [](const std::string&) {});
+    const auto made =
+        make_figures(generated_pictures(8), options, executor, [](const std::string&) {});
     EXPECT_TRUE(made);
     Files files;
     for (const OutputFile& file : *made) files[file.name] = file.text;
@@ -103,14 +103,12 @@ TEST_F(SmallRun, ThePageIsWellFormedAndNeedsNothingFromElsewhere) {
     EXPECT_GT(html.rfind("id=\"winners\""), html.rfind("id=\"table-4-2\""));
 }
 
-TEST_F(SmallRun, TheSeedDecidesEverythingButTheTimes) {
+TEST_F(SmallRun, ThreadsChangeNothingButTheTimes) {
     const Files again = run(1, 1);
-    const Files other = run(2, 2);
     for (const auto& [name, text] : files()) {
         if (name == "index.html" || name == "table_4_2.csv") continue;
         EXPECT_EQ(text, again.at(name)) << name;
     }
-    EXPECT_NE(files().at("figure_4_7.csv"), other.at("figure_4_7.csv"));
 }
 
 TEST(MakeFigures, NeedsTwoPictures) {

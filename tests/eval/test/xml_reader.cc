@@ -14,8 +14,8 @@ bool has_bare_ampersand(const std::string& text) {
 
 XmlReading read_xml(std::string_view text) {
     static const std::regex tag(
-        R"(^<(/?)([a-z][a-z0-9]*)((?:\s+[a-zA-Z-]+="[^"<]*")*)\s*(/?)>$)");
-    static const std::regex attribute(R"(([a-zA-Z-]+)="([^"<]*)\")");
+        R"(^<(/?)([a-z][a-z0-9]*)((?:\s+[a-zA-Z][a-zA-Z0-9-]*="[^"<]*")*)\s*(/?)>$)");
+    static const std::regex attribute(R"(([a-zA-Z][a-zA-Z0-9-]*)="([^"<]*)\")");
     XmlReading reading;
     std::vector<std::string> open;
     std::size_t at = 0;
