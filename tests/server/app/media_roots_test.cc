@@ -111,9 +111,9 @@ TEST_F(MediaRootsTest, APathLeadsToWhatLiesBelowARoot) {
                              "gone"})
         EXPECT_EQ(real(name).error().code, ErrorCode::kForbidden) << name;
     EXPECT_EQ(real("pictures/gone").error().code, ErrorCode::kNotFound);
-    for (const std::string path : {std::string(),
-                                   std::string("pictures"),
-                                   folder_.file("pictures") + std::string(1, '\0')})
+    for (const std::string& path : {std::string(),
+                                    std::string("pictures"),
+                                    folder_.file("pictures") + std::string(1, '\0')})
         EXPECT_EQ(media.locate_path(path).error().code, ErrorCode::kInvalidArgument);
 }
 
