@@ -114,8 +114,11 @@ Reply put_profile(const Context& context, const http::Request& request) {
     const auto put = context.images.put_profile(profile);
     if (!put) return put.error();
 
-    http::Response response = http::json_response(
-        put->created ? 201 : 200, described(context, put->profile, false));
+    const auto job = reindex_job(context, profile);
+    if (!job) return job.error();
+    json reply = described(context, put->profile, false);
+    if (*job) reply["reindex_job"] = **job;
+    http::Response response = http::json_response(put->created ? 201 : 200, reply);
     response.headers["Cache-Control"] = "no-store";
     if (put->created) response.headers["Location"] = "/profiles/" + name;
     return response;
