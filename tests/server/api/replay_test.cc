@@ -16,7 +16,7 @@ namespace {
 constexpr int kM = 20;
 const image::Profile kPainted = *image::built_in_profile("painted");
 
-image::Stroke block(double left, double top, double side, image::Rgb color) {
+image::Stroke block(float left, float top, float side, image::Rgb color) {
     image::Stroke stroke;
     stroke.points = {
         {left, top}, {left + side, top}, {left + side, top + side}, {left, top + side}};
@@ -69,7 +69,7 @@ TEST(Replay, DatabasesGrowAroundTheTargets) {
     for (int id = 2; id <= 41; ++id) {
         image::StrokePicture other = painting.strokes;
         const auto level = static_cast<std::uint8_t>(6 * id);
-        other.items = {block(0, 0, 32 + id / 2, {level, 90, 40})};
+        other.items = {block(0, 0, 32.0F + static_cast<float>(id) / 2, {level, 90, 40})};
         pictures.push_back(record_of(id, other));
     }
     ReplayOptions options;
