@@ -154,6 +154,15 @@ std::string to_html(const Figure46& figure) {
                "the kind of query (in bold in the table). Painting from memory cannot be "
                "simulated; half paintings take its place. What is transparent there is "
                "filled as the search fills it, for every metric.") +
+           paragraph(
+               "Where L1 or L2 on 8 x 8 comes out ahead on painted queries, the "
+               "simulation "
+               "is why: a simulated painting keeps the mean colour of every square, "
+               "which "
+               "is just what these two compare, and 8 x 8 to 16 x 16 flat squares have "
+               "few "
+               "other features. It also keeps the brightness: what scans lose and these "
+               "metrics depend on.") +
            panels(drawings) + legend(plots) + table.html();
 }
 

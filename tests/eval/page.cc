@@ -42,10 +42,11 @@ a { color: var(--c0); }
   padding: 0; list-style: none; font-size: 0.85rem; }
 .legend svg { vertical-align: middle; }
 .wide { overflow-x: auto; margin: 1rem 0; }
+td { white-space: nowrap; }
 table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 0.2rem 0.6rem; border-bottom: 1px solid var(--rule); text-align: left; }
 th { vertical-align: bottom; background: var(--wash); }
-.n { text-align: right; white-space: nowrap; }
+.n { text-align: right; }
 td.strong { font-weight: 700; color: var(--c0); }
 summary { cursor: pointer; color: var(--c0); }
 )";
