@@ -139,7 +139,8 @@ class Walk {
                 continue;
             }
             if (S_ISLNK(entry.st_mode) &&
-                ::fstatat(number, name.c_str(), &entry, 0) != 0) {
+                (!options_.file_links ||
+                 ::fstatat(number, name.c_str(), &entry, 0) != 0)) {
                 continue;
             }
             if (!S_ISREG(entry.st_mode) || is_own(entry) ||

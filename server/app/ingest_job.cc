@@ -63,6 +63,8 @@ Result<void> run(JobContext& job, const IngestJobOptions& options) {
     ingest::PipelineOptions pipeline;
     pipeline.paths = std::move(paths).value();
     pipeline.walk.own_files = ingest::database_files(options.database_path);
+    // A link could lead out of the media root, and with it a thumbnail into the open.
+    pipeline.walk.file_links = false;
     pipeline.jobs = options.threads;
     pipeline.count_ahead = true;
     JobObserver observer(job);

@@ -76,9 +76,7 @@ RgbPicture simulate_painting(const RgbPicture& picture, Random& random) {
     return simulate_painting(picture, 8 + random.below(9), random);
 }
 
-QueryPicture simulate_half_painting(const RgbPicture& picture, int grid, Random& random) {
-    assert(grid % 2 == 0);
-    const RgbPicture painting = simulate_painting(picture, grid, random);
+QueryPicture keep_half(const RgbPicture& painting, Random& random) {
     const int half = random.below(4);
     QueryPicture result{painting.width, painting.height, 4, {}};
     result.pixels.reserve(painting.rgb.size() / 3 * 4);
@@ -95,6 +93,11 @@ QueryPicture simulate_half_painting(const RgbPicture& picture, int grid, Random&
         }
     }
     return result;
+}
+
+QueryPicture simulate_half_painting(const RgbPicture& picture, int grid, Random& random) {
+    assert(grid % 2 == 0);
+    return keep_half(simulate_painting(picture, grid, random), random);
 }
 
 std::string query_kind_name(QueryKind kind) {

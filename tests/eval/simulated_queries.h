@@ -56,8 +56,10 @@ enum class QueryKind { kScanned, kPainted, kHalfPainted };
 // The same with a grid of 8 to 16.
 [[nodiscard]] RgbPicture simulate_painting(const RgbPicture& picture, Random& random);
 
-// A painting whose left, right, upper or lower half is transparent.
-// Requires: grid is even.
+// The left, right, upper or lower half of it; the other half is transparent.
+[[nodiscard]] QueryPicture keep_half(const RgbPicture& painting, Random& random);
+
+// A painting of which one half is kept. Requires: grid is even.
 [[nodiscard]] QueryPicture simulate_half_painting(const RgbPicture& picture,
                                                   int grid,
                                                   Random& random);

@@ -124,6 +124,17 @@ TEST(Walk, FollowsLinksToFilesButNotToFolders) {
     EXPECT_THAT(walked.failures, IsEmpty());
 }
 
+TEST(Walk, FollowsNoLinkWhereThatIsAskedFor) {
+    const ScratchFolder folder;
+    const ScratchFolder elsewhere;
+    const std::string target = elsewhere.write("target.png", kPngBegin);
+    ASSERT_EQ(::symlink(target.c_str(), (folder / "link.png").c_str()), 0);
+    const std::string file = folder.write("file.png", kPngBegin);
+    WalkOptions options;
+    options.file_links = false;
+    EXPECT_THAT(walk_all({folder.path()}, options).files, ElementsAre(file));
+}
+
 TEST(Walk, FollowsALinkThatIsItselfAPath) {
     const ScratchFolder folder;
     const ScratchFolder elsewhere;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/image/query.h"
+#include "engine/image/signature_codec.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/server/app/collection.h"
 
@@ -103,6 +104,35 @@ TEST_F(IndexFollowerTest, SeesWhatAnotherConnectionAddsChangesAndRemoves) {
     EXPECT_TRUE(comes_to_hold({second}));
     ASSERT_TRUE(other_->images().purge(second));
     EXPECT_TRUE(comes_to_hold({}));
+}
+
+TEST_F(IndexFollowerTest, FollowsTheFurtherSignaturesOfAPicture) {
+    const ImageId before = add(1);
+    const auto variant = [](unsigned number) {
+        const image::SignatureKind lab{image::ColorSpace::kLab,
+                                       image::Decomposition::kStandard};
+        return schema::SignatureVariant{"lab-standard",
+                                        image::encode_signature(image::make_signature(
+                                            image::scene(96, 64, number).view(), lab))};
+    };
+    ASSERT_TRUE(other_->images().set_variant(before, variant(1)));
+    start_and_load();
+    const auto pictures = [&] {
+        const Snapshots snapshots = follower_->snapshots();
+        const auto found = snapshots.find("lab-standard");
+        return found == snapshots.end() ? -1 : found->second->stats().images;
+    };
+    EXPECT_EQ(pictures(), 1);
+    const ImageId later = add(2);
+    ASSERT_TRUE(other_->images().set_variant(later, variant(2)));
+    EXPECT_TRUE(becomes_true([&] { return pictures() == 2; }));
+    // Damage costs the one signature, not the picture.
+    ASSERT_TRUE(other_->images().set_variant(later, {"lab-standard", {1, 2, 3}}));
+    EXPECT_TRUE(becomes_true([&] { return pictures() == 1; }));
+    EXPECT_EQ(indexed(), (std::set<ImageId>{before, later}));
+    EXPECT_EQ(follower_->damaged(), 1);
+    ASSERT_TRUE(other_->images().remove(before));
+    EXPECT_TRUE(becomes_true([&] { return pictures() == 0; }));
 }
 
 TEST_F(IndexFollowerTest, FollowsMoreChangesThanOneBatchHolds) {
