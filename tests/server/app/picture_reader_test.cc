@@ -20,7 +20,7 @@ LookOptions look_with(Mask mask) {
     return look;
 }
 
-// Without transparency the two masks are one.
+// Opaque on the left, transparent on the right: the two masks differ.
 image::Pixels half_transparent() {
     image::Pixels pixels = image::noise(64, 48, 4, 5);
     for (int y = 0; y < pixels.height; ++y)
