@@ -30,46 +30,7 @@ class TombstonesInWork {
     std::shared_ptr<Tombstones> copy_;
 };
 
-void score_tail(const Collection& collection,
-                const Query& query,
-                const IdSet* only,
-                std::vector<Match>& out) {
-    const LiveTail& tail = collection.tail;
-    const int m = std::min(query.m, collection.index_m);
-    tail.records->score_all(query, m, tail.count, tail.removed, only, out);
-}
-
 }  // namespace
-
-SearchResult search(const Collection& collection,
-                    const Query& query,
-                    const SearchScope& scope) {
-    TopK top(scope.limit);
-    SearchResult result;
-    SegmentScores scores;
-    for (const LiveSegment& part : collection.segments) {
-        result.searched +=
-            part.segment->search(query, part.removed, scope.only, scores, top);
-    }
-    std::vector<Match> newest;
-    score_tail(collection, query, scope.only, newest);
-    for (const Match& match : newest) top.offer(match);
-    result.searched += std::int64_t(newest.size());
-    result.matches = top.take();
-    return result;
-}
-
-std::vector<Match> score_all(const Collection& collection,
-                             const Query& query,
-                             const IdSet* only) {
-    std::vector<Match> matches;
-    SegmentScores scores;
-    for (const LiveSegment& part : collection.segments) {
-        part.segment->score_all(query, part.removed, only, scores, matches);
-    }
-    score_tail(collection, query, only, matches);
-    return matches;
-}
 
 IndexStats stats(const Collection& collection) {
     const LiveTail& tail = collection.tail;
@@ -83,7 +44,9 @@ IndexStats stats(const Collection& collection) {
     for (const LiveSegment& part : collection.segments) {
         stats.images += part.live();
         stats.tombstones += removed_count(part.removed);
-        stats.bytes += part.segment->bytes();
+        stats.bytes += std::int64_t(part.segment->bytes().total);
+        stats.rank_bytes += std::int64_t(part.segment->bytes().total -
+                                         part.segment->bytes().without_ranks);
         if (part.removed != nullptr) stats.bytes += part.removed->bytes();
     }
     return stats;

@@ -27,12 +27,6 @@ struct Collection {
     LiveTail tail;
 };
 
-[[nodiscard]] SearchResult search(const Collection& collection,
-                                  const Query& query,
-                                  const SearchScope& scope);
-[[nodiscard]] std::vector<Match> score_all(const Collection& collection,
-                                           const Query& query,
-                                           const IdSet* only);
 [[nodiscard]] IndexStats stats(const Collection& collection);
 
 // Sets the tombstones of those pictures that are live; the tombstones of every segment that

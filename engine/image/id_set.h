@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +30,7 @@ class IdSet {
             const auto bit = std::uint64_t(to_int(id) - first_);
             words_[bit / 64] |= std::uint64_t{1} << (bit % 64);
         }
+        for (const std::uint64_t word : words_) size_ += std::popcount(word);
     }
 
     [[nodiscard]] bool contains(ImageId id) const {
@@ -37,8 +39,22 @@ class IdSet {
         return bit / 64 < words_.size() && (words_[bit / 64] >> (bit % 64) & 1U) != 0;
     }
 
+    // How many ids there are.
+    [[nodiscard]] std::int64_t size() const { return size_; }
+
+    // Calls visit(ImageId) for each, rising.
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t word = 0; word < words_.size(); ++word) {
+            for (std::uint64_t rest = words_[word]; rest != 0; rest &= rest - 1) {
+                visit(ImageId{first_ + std::int64_t(word * 64) + std::countr_zero(rest)});
+            }
+        }
+    }
+
   private:
     std::int64_t first_ = 0;
+    std::int64_t size_ = 0;
     std::vector<std::uint64_t> words_;
 };
 

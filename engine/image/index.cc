@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/image/collection.h"
+#include "engine/image/collection_search.h"
 #include "engine/image/merge_plan.h"
 
 namespace haarmony::image {
@@ -58,7 +59,7 @@ class Index::State {
   public:
     explicit State(const IndexOptions& options) : options_(options) {
         assert(options.index_m >= 1 && options.index_m <= kMaxCoefficients);
-        assert(options.tail_capacity >= 1 && options.tail_capacity <= kMaxSlots);
+        assert(options.tail_capacity >= 1 && options.tail_capacity <= kMaxSegmentSlots);
         Collection empty;
         empty.index_m = options.index_m;
         start_tail(empty);
@@ -137,7 +138,7 @@ void Index::State::seal_with(Collection& collection, std::vector<const Record*> 
     }
     std::ranges::sort(records, {}, &Record::id);
     for (std::span<const Record* const> rest = records; !rest.empty();) {
-        const auto block = rest.first(std::min(rest.size(), std::size_t{kMaxSlots}));
+        const auto block = rest.first(std::min(rest.size(), std::size_t{kMaxSegmentSlots}));
         collection.segments.push_back(
             {Segment::from_records(block, options_.index_m), nullptr});
         rest = rest.subspan(block.size());

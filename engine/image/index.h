@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/executor.h"
 #include "engine/core/ids.h"
 #include "engine/image/id_set.h"
 #include "engine/image/query.h"
@@ -34,12 +35,17 @@ struct IndexStats {
     std::int64_t segments = 0;
     std::int64_t tail = 0;   // slots of the tail in use
     std::int64_t bytes = 0;  // of search arrays, ids, averages and the tail
+    // Of these, what only another m than 20, 40 and index_m, or a merge, reads.
+    std::int64_t rank_bytes = 0;
 };
 
 // How many matches are wanted, and among which pictures.
 struct SearchScope {
-    int limit = 0;                // >= 0
-    const IdSet* only = nullptr;  // null: all
+    int limit = 0;                 // >= 0
+    const IdSet* only = nullptr;   // null: all
+    Executor* executor = nullptr;  // who helps with a large collection; null: nobody
+    // Leaves nothing out that need not be looked at: the answer is the same. For measuring.
+    bool exhaustive = false;
 };
 
 class IndexSnapshot;

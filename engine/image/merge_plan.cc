@@ -4,7 +4,7 @@
 #include <bit>
 #include <map>
 
-#include "engine/image/search_arrays.h"
+#include "engine/image/segment_layout.h"
 
 namespace haarmony::image {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::size_t> plan_merge(std::span<const SegmentSize> segments) {
         int total = 0;
         std::size_t count = 0;
         while (count < members.size() &&
-               total + segments[members[count]].live <= kMaxSlots) {
+               total + segments[members[count]].live <= kMaxSegmentSlots) {
             total += segments[members[count++]].live;
         }
         if (count >= 2) return {members.begin(), members.begin() + std::ptrdiff_t(count)};

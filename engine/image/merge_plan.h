@@ -1,9 +1,9 @@
 // Which segments to merge next: geometric, so that a picture is moved a logarithmic number
-// of times and the number of segments stays close to pictures / kMaxSlots.
+// of times and the number of segments stays close to pictures / kMaxSegmentSlots.
 //
 // Rules   1. a segment of which at least half is removed is rewritten alone;
 //         2. the smallest kMergeFanIn segments or more of one size class (sizes within a
-//            factor of 4), as long as the result has at most kMaxSlots pictures.
+//            factor of 4), as long as the result has at most kMaxSegmentSlots pictures.
 #pragma once
 
 #include <cstddef>

@@ -32,20 +32,6 @@ Query make_query(const Signature& signature, const Profile& profile, int m) {
     return query;
 }
 
-Score score(const Query& query,
-            const std::array<std::int32_t, kChannels>& target_average,
-            std::int32_t target_log_aspect,
-            std::int64_t matched_weight) {
-    Score total = -matched_weight * kAverageOne;
-    total += query.aspect_weight *
-             std::abs(std::int64_t{query.log_aspect} - target_log_aspect);
-    for (int c = 0; c < kChannels; ++c) {
-        total += query.average_weight[c] *
-                 std::abs(std::int64_t{query.average[c]} - target_average[c]);
-    }
-    return total;
-}
-
 // What (4.4) leaves out is added again.
 Score full_distance(const Query& query, Score score) {
     return score + query.weight_sum * kAverageOne;
@@ -60,6 +46,15 @@ double similarity(const Query& query, Score score) {
     if (query.weight_sum == 0) return from_target == 0 ? 1.0 : 0.0;
     const double weights = static_cast<double>(query.weight_sum) * double{kAverageOne};
     return std::clamp(1.0 - static_cast<double>(from_target) / weights, 0.0, 1.0);
+}
+
+SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {
+    blocks += other.blocks;
+    blocks_visited += other.blocks_visited;
+    rows += other.rows;
+    compared += other.compared;
+    averaged += other.averaged;
+    return *this;
 }
 
 }  // namespace haarmony::image

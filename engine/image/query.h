@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "engine/core/ids.h"
@@ -53,10 +54,20 @@ struct Query {
 // Equation (4.4) of one target, and the term of its shape; what the search arrays compute
 // for all of them at once. `matched_weight` is the sum of the weights of the terms that the
 // target has.
-[[nodiscard]] Score score(const Query& query,
-                          const std::array<std::int32_t, kChannels>& target_average,
-                          std::int32_t target_log_aspect,
-                          std::int64_t matched_weight);
+[[nodiscard]] inline Score score(
+    const Query& query,
+    const std::array<std::int32_t, kChannels>& target_average,
+    std::int32_t target_log_aspect,
+    std::int64_t matched_weight) {
+    Score total = -matched_weight * kAverageOne;
+    total += query.aspect_weight *
+             std::abs(std::int64_t{query.log_aspect} - target_log_aspect);
+    for (int c = 0; c < kChannels; ++c) {
+        total += query.average_weight[c] *
+                 std::abs(std::int64_t{query.average[c]} - target_average[c]);
+    }
+    return total;
+}
 
 // Equation (4.3) of a score, in units of a score: an exact integer, and comparable between
 // queries, which scores are not.
@@ -78,9 +89,21 @@ struct Match {
     return a.score != b.score ? a.score < b.score : a.id < b.id;
 }
 
+// What a search had to look at.
+struct SearchEffort {
+    std::int64_t blocks = 0;          // of 256 pictures, in sealed segments
+    std::int64_t blocks_visited = 0;  // whose rows were added up
+    std::int64_t rows = 0;            // of 256 bits that were read
+    std::int64_t averaged = 0;
+    std::int64_t compared = 0;        // pictures whose score was computed exactly
+
+    SearchEffort& operator+=(const SearchEffort& other);
+};
+
 struct SearchResult {
     std::vector<Match> matches;  // best first
-    std::int64_t searched = 0;   // live pictures that were compared
+    std::int64_t searched = 0;   // live pictures among which these are the best
+    SearchEffort effort = {};
 };
 
 }  // namespace haarmony::image

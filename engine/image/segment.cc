@@ -1,158 +1,204 @@
 #include "engine/image/segment.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <functional>
 #include <utility>
 
-#include "engine/image/score_kernel.h"
-
 namespace haarmony::image {
+namespace {
+
+constexpr std::int32_t kLeftOut = -1;
+
+// Postings on their way to a sink, some at a time.
+class Outbox {
+  public:
+    explicit Outbox(const PostingSink& sink) : sink_(sink) { waiting_.reserve(kSome); }
+
+    void send(const PlacedPosting& posting) {
+        waiting_.push_back(posting);
+        if (waiting_.size() == kSome) flush();
+    }
+    void flush() {
+        if (!waiting_.empty()) sink_(waiting_);
+        waiting_.clear();
+    }
+
+  private:
+    static constexpr std::size_t kSome = 2048;
+    const PostingSink& sink_;
+    std::vector<PlacedPosting> waiting_;
+};
+
+void send_dense(const SegmentView& view,
+                std::span<const std::int32_t> place_of,
+                Outbox& out) {
+    const std::size_t stride = view.counts.row_words();
+    const std::size_t words = view.counts.block_words();
+    const auto rows = view.rows[std::size_t(view.tiers.top())];
+    std::size_t rank = 0;
+    for (std::size_t list = 0; list < view.dense_keys.size(); ++list) {
+        for (std::size_t word = 0; word < words; ++word) {
+            for (std::uint64_t bits = rows[list * stride + word]; bits != 0;
+                 bits &= bits - 1) {
+                const std::int32_t place =
+                    place_of[word * 64 + std::size_t(std::countr_zero(bits))];
+                const std::uint8_t its_rank = view.dense_ranks[rank++];
+                if (place != kLeftOut)
+                    out.send({view.dense_keys[list], std::uint32_t(place), its_rank});
+            }
+        }
+    }
+}
+
+// Those of lists that are dense above are among the dense ones already.
+bool is_dense_above(const SegmentView& view, std::uint32_t key) {
+    return DirectoryEntry(view.directory[key]).dense() != DirectoryEntry::kNone;
+}
+
+void send_warm(const SegmentView& view,
+               std::span<const std::int32_t> place_of,
+               Outbox& out) {
+    const auto blocks = std::size_t(view.counts.blocks());
+    for (std::size_t list = 0; list < view.counts.warm; ++list) {
+        const std::uint32_t key = view.sparse_keys[list];
+        if (is_dense_above(view, key)) continue;
+        for (std::size_t block = 0; block < blocks; ++block) {
+            const std::size_t end = warm_run_begin(view, list, block + 1);
+            for (std::size_t i = warm_run_begin(view, list, block); i < end; ++i) {
+                const std::int32_t place =
+                    place_of[block * kBlockSlots + view.warm_slots[i]];
+                if (place != kLeftOut)
+                    out.send({key, std::uint32_t(place), view.warm_ranks[i]});
+            }
+        }
+    }
+}
+
+void send_rare(const SegmentView& view,
+               std::span<const std::int32_t> place_of,
+               Outbox& out) {
+    for (std::size_t list = 0; list < view.counts.rare; ++list) {
+        const std::uint32_t key = view.sparse_keys[view.counts.warm + list];
+        if (is_dense_above(view, key)) continue;
+        for (std::uint32_t i = view.rare_begin[list]; i < view.rare_begin[list + 1]; ++i) {
+            const RarePosting posting =
+                read_rare(view.rare_postings.data() + i * RarePosting::kBytes);
+            const std::int32_t place = place_of[std::size_t(posting.slot)];
+            if (place != kLeftOut)
+                out.send({key, std::uint32_t(place), std::uint8_t(posting.rank)});
+        }
+    }
+}
+
+}  // namespace
 
 int LiveSegment::live() const { return segment->size() - removed_count(removed); }
 
-Segment::Segment(std::vector<ImageId> ids, Columns columns, SearchArrays arrays)
-    : ids_(std::move(ids)), columns_(std::move(columns)), arrays_(std::move(arrays)) {
-    assert(!ids_.empty() && ids_.size() <= std::size_t{kMaxSlots});
-    assert(std::ranges::adjacent_find(ids_, std::greater_equal<>()) == ids_.end());
+void for_each_posting(const SegmentView& view,
+                      std::span<const std::int32_t> place_of,
+                      const PostingSink& sink) {
+    Outbox out(sink);
+    send_dense(view, place_of, out);
+    send_warm(view, place_of, out);
+    send_rare(view, place_of, out);
+    out.flush();
+}
+
+Segment::Segment(BuiltSegment built) {
+    const std::span<const std::byte> bytes = built.bytes.span();
+    view_ = spans_of(built.counts, bytes);
+    owner_ = std::shared_ptr<const std::byte[]>(std::move(built.bytes.bytes));
+}
+
+std::shared_ptr<const Segment> Segment::from_view(const SegmentView& view,
+                                                  std::shared_ptr<const void> owner) {
+    return std::shared_ptr<const Segment>(new Segment(view, std::move(owner)));
 }
 
 std::shared_ptr<const Segment> Segment::from_records(
     std::span<const Record* const> records,
     int index_m) {
-    std::vector<ImageId> ids;
-    Columns columns;
-    ids.reserve(records.size());
-    columns.log_aspects.reserve(records.size());
+    PictureColumns columns;
+    columns.ids.reserve(records.size());
+    columns.terms.reserve(records.size());
     for (const Record* record : records) {
-        ids.push_back(record->id);
-        columns.log_aspects.push_back(record->log_aspect);
+        columns.ids.push_back(record->id);
+        PictureTerms terms;
+        for (int c = 0; c < kChannels; ++c)
+            terms.average[c] = record->signature.channels[c].average;
+        terms.log_aspect = record->log_aspect;
+        columns.terms.push_back(terms);
     }
-    for (int c = 0; c < kChannels; ++c) {
-        columns.averages[c].reserve(records.size());
-        for (const Record* record : records) {
-            columns.averages[c].push_back(record->signature.channels[c].average);
-        }
-    }
-    SearchArrays arrays(index_m, [&](const auto& sink) {
-        for (std::size_t slot = 0; slot < records.size(); ++slot) {
+    assert(std::ranges::adjacent_find(columns.ids, std::greater_equal<>()) ==
+           columns.ids.end());
+    const auto postings = [&](std::span<const std::uint32_t> places,
+                              const PostingSink& sink) {
+        std::vector<PlacedPosting> of_picture;
+        for (const std::uint32_t place : places) {
+            of_picture.clear();
             for (int c = 0; c < kChannels; ++c) {
-                int rank = 0;
+                std::uint8_t rank = 0;
                 for (const std::int16_t signed_index :
-                     records[slot]->signature.channels[c].largest(index_m)) {
-                    sink(Posting{coefficient_key(c, signed_index), int(slot), rank++});
+                     records[place]->signature.channels[c].largest(index_m)) {
+                    of_picture.push_back(
+                        {coefficient_key(c, signed_index), place, rank++});
                 }
             }
+            sink(of_picture);
         }
-    });
+    };
     return std::shared_ptr<const Segment>(
-        new Segment(std::move(ids), std::move(columns), std::move(arrays)));
+        new Segment(build_segment(index_m, columns, postings)));
 }
 
 std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts) {
     struct Source {
         ImageId id;
-        int part;
-        int slot;
+        std::uint32_t part;
+        std::uint32_t slot;
     };
     std::vector<Source> sources;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        for (int slot = 0; slot < parts[p].segment->size(); ++slot) {
+    std::vector<std::vector<std::int32_t>> place_of;
+    for (std::uint32_t p = 0; p < parts.size(); ++p) {
+        const Segment& segment = *parts[p].segment;
+        // Whole blocks: a row has bits for slots beyond the last, though none is set.
+        place_of.emplace_back(std::size_t(segment.view_.counts.blocks()) * kBlockSlots,
+                              kLeftOut);
+        for (int slot = 0; slot < segment.size(); ++slot) {
             if (is_removed(parts[p].removed, slot)) continue;
-            sources.push_back({parts[p].segment->id(slot), int(p), slot});
+            sources.push_back({segment.id(slot), p, std::uint32_t(slot)});
         }
     }
     if (sources.empty()) return nullptr;
     std::ranges::sort(sources, {}, &Source::id);
 
-    constexpr int kGone = -1;
-    std::vector<std::vector<int>> new_slot;
-    for (const LiveSegment& part : parts)
-        new_slot.emplace_back(part.segment->size(), kGone);
-    std::vector<ImageId> ids;
-    Columns columns;
+    PictureColumns columns;
+    columns.ids.reserve(sources.size());
+    columns.terms.reserve(sources.size());
     for (const Source& source : sources) {
-        const auto slot = std::size_t(source.slot);
-        const Columns& old = parts[source.part].segment->columns_;
-        new_slot[source.part][slot] = static_cast<int>(ids.size());
-        ids.push_back(source.id);
-        columns.log_aspects.push_back(old.log_aspects[slot]);
-        for (int c = 0; c < kChannels; ++c) {
-            columns.averages[c].push_back(old.averages[c][slot]);
-        }
+        place_of[source.part][source.slot] = static_cast<std::int32_t>(columns.ids.size());
+        columns.ids.push_back(source.id);
+        columns.terms.push_back(parts[source.part].segment->view_.terms[source.slot]);
     }
-    const int index_m = parts[0].segment->arrays_.index_m();
-    SearchArrays arrays(index_m, [&](const auto& sink) {
+    const auto index_m = parts[0].segment->view_.counts.index_m;
+    const auto postings = [&](std::span<const std::uint32_t>, const PostingSink& sink) {
         for (std::size_t p = 0; p < parts.size(); ++p) {
-            const SearchArrays& old = parts[p].segment->arrays_;
-            assert(old.index_m() == index_m);
-            old.for_each_posting([&](Posting posting) {
-                posting.slot = new_slot[p][posting.slot];
-                if (posting.slot != kGone) sink(posting);
-            });
+            assert(parts[p].segment->view_.counts.index_m == index_m);
+            for_each_posting(parts[p].segment->view_, place_of[p], sink);
         }
-    });
+    };
     return std::shared_ptr<const Segment>(
-        new Segment(std::move(ids), std::move(columns), std::move(arrays)));
+        new Segment(build_segment(static_cast<int>(index_m), columns, postings)));
 }
 
 std::optional<int> Segment::find(ImageId id) const {
-    if (id < ids_.front() || id > ids_.back()) return std::nullopt;
-    const auto found = std::ranges::lower_bound(ids_, id);
-    if (*found != id) return std::nullopt;
-    return static_cast<int>(found - ids_.begin());
-}
-
-void Segment::score(const Query& query, SegmentScores& scores) const {
-    scores.matched.assign(ids_.size(), 0);
-    scores.scores.resize(ids_.size());
-    arrays_.add_matches(query, scores.matched);
-    const auto& averages = columns_.averages;
-    score_slots(query,
-                {{averages[0], averages[1], averages[2]}, columns_.log_aspects},
-                scores.matched,
-                scores.scores);
-}
-
-int Segment::search(const Query& query,
-                    const TombstonesPtr& removed,
-                    const IdSet* only,
-                    SegmentScores& scores,
-                    TopK& top) const {
-    score(query, scores);
-    if (only == nullptr) {
-        for (int slot = 0; slot < size(); ++slot) {
-            const Score score = scores.scores[std::size_t(slot)];
-            if (top.admits(score) && !is_removed(removed, slot))
-                top.offer({id(slot), score});
-        }
-        return size() - removed_count(removed);
-    }
-    int searched = 0;
-    for (int slot = 0; slot < size(); ++slot) {
-        if (!only->contains(id(slot)) || is_removed(removed, slot)) continue;
-        ++searched;
-        top.offer({id(slot), scores.scores[std::size_t(slot)]});
-    }
-    return searched;
-}
-
-void Segment::score_all(const Query& query,
-                        const TombstonesPtr& removed,
-                        const IdSet* only,
-                        SegmentScores& scores,
-                        std::vector<Match>& out) const {
-    score(query, scores);
-    for (int slot = 0; slot < size(); ++slot) {
-        if (is_removed(removed, slot)) continue;
-        if (only != nullptr && !only->contains(id(slot))) continue;
-        out.push_back({id(slot), scores.scores[std::size_t(slot)]});
-    }
-}
-
-std::int64_t Segment::bytes() const {
-    const std::size_t per_slot = sizeof(ImageId) + (kChannels + 1) * sizeof(std::int32_t);
-    return arrays_.bytes() + std::int64_t(ids_.size() * per_slot);
+    const auto found = std::ranges::lower_bound(
+        view_.slots_by_id, to_int(id), {}, [this](auto slot) { return view_.ids[slot]; });
+    if (found == view_.slots_by_id.end() || view_.ids[*found] != to_int(id))
+        return std::nullopt;
+    return static_cast<int>(*found);
 }
 
 }  // namespace haarmony::image

@@ -1,12 +1,13 @@
-// An immutable block of at most kMaxSlots pictures: search arrays, averages, shapes and ids.
+// An immutable block of at most kMaxSegmentSlots pictures, ready to be searched.
+//   segment_builder.h, segment_layout.h -> [segment.h] -> segment_search.h, collection.h
 //
-// Shape   slots are in rising order of id, so that an id is found by binary search.
+// Shape   one piece of memory, built here or mapped from a file (segment_layout.h); slots
+//         are in the order of picture_order.h.
 // Errors  none; a wrong shape is a caller's bug and asserts.
 // Threads const-thread-safe.
 // Source  sec. 4.3.1, 4.3.2; Figure 4.2.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,11 +15,10 @@
 #include <vector>
 
 #include "engine/core/ids.h"
-#include "engine/image/id_set.h"
 #include "engine/image/record.h"
-#include "engine/image/search_arrays.h"
+#include "engine/image/segment_builder.h"
+#include "engine/image/segment_layout.h"
 #include "engine/image/tombstones.h"
-#include "engine/image/top_k.h"
 
 namespace haarmony::image {
 
@@ -32,57 +32,47 @@ struct LiveSegment {
     [[nodiscard]] int live() const;
 };
 
-// Working storage of one search, reused from segment to segment.
-struct SegmentScores {
-    std::vector<std::int32_t> matched;
-    std::vector<Score> scores;
-};
-
 class Segment {
   public:
-    // Requires: 1 <= size <= kMaxSlots, ids rising.
+    // Requires: 1 <= size <= kMaxSegmentSlots, ids rising.
     [[nodiscard]] static std::shared_ptr<const Segment> from_records(
         std::span<const Record* const> records,
         int index_m);
 
     // The live pictures of `parts`, or null where there are none.
-    // Requires: at most kMaxSlots of them, no id live in two parts, one index_m.
+    // Requires: at most kMaxSegmentSlots of them, no id live in two parts, one index_m.
+    // Cost: memory of the result and of some 50 bytes a picture beside it.
     [[nodiscard]] static std::shared_ptr<const Segment> merge(
         std::span<const LiveSegment> parts);
 
-    [[nodiscard]] int size() const { return static_cast<int>(ids_.size()); }
-    [[nodiscard]] ImageId id(int slot) const { return ids_[std::size_t(slot)]; }
+    // A segment in bytes that are kept alive by `owner`.
+    [[nodiscard]] static std::shared_ptr<const Segment> from_view(
+        const SegmentView& view,
+        std::shared_ptr<const void> owner);
+
+    [[nodiscard]] const SegmentView& view() const { return view_; }
+    [[nodiscard]] int size() const { return static_cast<int>(view_.counts.slots); }
+    [[nodiscard]] ImageId id(int slot) const {
+        return ImageId{view_.ids[std::size_t(slot)]};
+    }
     [[nodiscard]] std::optional<int> find(ImageId id) const;
 
-    // Offers every picture that is not removed, and in `only` if there is one; returns how
-    // many these are.
-    int search(const Query& query,
-               const TombstonesPtr& removed,
-               const IdSet* only,
-               SegmentScores& scores,
-               TopK& top) const;
-    // Appends the scores of the same pictures, in the order of ids.
-    void score_all(const Query& query,
-                   const TombstonesPtr& removed,
-                   const IdSet* only,
-                   SegmentScores& scores,
-                   std::vector<Match>& out) const;
-
-    [[nodiscard]] std::int64_t bytes() const;
+    // All bytes, and those that no search under m = 20, 40 or index_m leaves unread.
+    [[nodiscard]] SegmentBytes bytes() const { return segment_bytes(view_.counts); }
 
   private:
-    // What is known of a slot beside its coefficients: a column each.
-    struct Columns {
-        std::array<std::vector<std::int32_t>, kChannels> averages;
-        std::vector<std::int32_t> log_aspects;
-    };
+    Segment(const SegmentView& view, std::shared_ptr<const void> owner)
+        : view_(view), owner_(std::move(owner)) {}
+    explicit Segment(BuiltSegment built);
 
-    Segment(std::vector<ImageId> ids, Columns columns, SearchArrays arrays);
-    void score(const Query& query, SegmentScores& scores) const;
-
-    std::vector<ImageId> ids_;
-    Columns columns_;
-    SearchArrays arrays_;
+    SegmentView view_;
+    std::shared_ptr<const void> owner_;
 };
+
+// Every posting of a segment, once: `place_of` says the place of the picture in a slot, and
+// is negative where it is left out.
+void for_each_posting(const SegmentView& view,
+                      std::span<const std::int32_t> place_of,
+                      const PostingSink& sink);
 
 }  // namespace haarmony::image

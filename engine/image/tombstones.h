@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace haarmony::image {
@@ -23,6 +24,8 @@ class Tombstones {
     }
 
     [[nodiscard]] int count() const { return count_; }
+    // Slot s is bit s % 64 of word s / 64.
+    [[nodiscard]] std::span<const std::uint64_t> words() const { return words_; }
     [[nodiscard]] std::int64_t bytes() const {
         return std::int64_t(words_.size() * sizeof(std::uint64_t));
     }

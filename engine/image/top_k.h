@@ -21,6 +21,11 @@ class TopK {
         return !full() || (limit_ > 0 && score <= heap_.front().score);
     }
 
+    // Whether as many are kept as are wanted; from then on worst() is the score to beat.
+    [[nodiscard]] bool full() const { return heap_.size() == limit_; }
+    // Requires: full(), and a limit above 0.
+    [[nodiscard]] Score worst() const { return heap_.front().score; }
+
     // Cost: constant where the match is not kept, else logarithmic in the limit.
     void offer(const Match& match);
 
@@ -28,8 +33,6 @@ class TopK {
     [[nodiscard]] std::vector<Match> take();
 
   private:
-    [[nodiscard]] bool full() const { return heap_.size() == limit_; }
-
     std::size_t limit_;
     std::vector<Match> heap_;  // the worst on top
 };
