@@ -54,7 +54,8 @@ HWY_INLINE void AddEight(const std::uint64_t* const* rows,
         auto one = hn::Load(d, ones + w);
         auto two = hn::Load(d, twos + w);
         auto four = hn::Load(d, fours + w);
-        const auto row = [&](std::size_t i) HWY_ATTR { return hn::LoadU(d, rows[i] + w); };
+        const auto row = [&](std::size_t i)
+                             HWY_ATTR { return hn::LoadU(d, rows[i] + w); };
         const auto two_a = FullAdd(one, row(0), row(1));
         const auto two_b = FullAdd(one, row(2), row(3));
         const auto four_a = FullAdd(two, two_a, two_b);
@@ -126,8 +127,7 @@ void AddRows(const BitSumPlan& plan,
             for (; i + 8 <= count; i += 8)
                 AddEight(&in[i], words, ones, twos, fours, ring[(p + 3) % 4].add());
         }
-        for (; i + 2 <= count; i += 2)
-            AddTwo(in[i], in[i + 1], words, ones, next.add());
+        for (; i + 2 <= count; i += 2) AddTwo(in[i], in[i + 1], words, ones, next.add());
         if (i < count) AddOne(in[i], words, ones, next.add());
         here.clear();
     }
@@ -149,8 +149,8 @@ void Unpack(const BitSums& sums, int planes, int block, std::uint16_t* out) {
                 sums.planes[p][first_word + slot / 64] >> (slot % 64 / 16 * 16);
             const auto piece = hn::Set(d, static_cast<std::uint16_t>(word));
             const auto value = hn::Set(d, static_cast<std::uint16_t>(1U << p));
-            sum = hn::Or(sum,
-                         hn::And(value, hn::VecFromMask(d, hn::TestBit(piece, bits))));
+            sum =
+                hn::Or(sum, hn::And(value, hn::VecFromMask(d, hn::TestBit(piece, bits))));
         }
         hn::StoreU(sum, d, out + slot);
     }
@@ -257,7 +257,8 @@ void spread(const BitSums& groups,
     const std::size_t source = std::size_t(from) * kBlockWords + std::size_t(quarter);
     for (int p = 0; p < planes_used; ++p) {
         const std::uint64_t word = groups.planes[p][source];
-        std::uint64_t* const target = out.planes[p].data() + std::size_t(to) * kBlockWords;
+        std::uint64_t* const target =
+            out.planes[p].data() + std::size_t(to) * kBlockWords;
         for (int i = 0; i < kBlockWords; ++i) {
             const std::uint64_t low = kFourfold[word >> (16 * i) & 0xFFU];
             const std::uint64_t high = kFourfold[word >> (16 * i + 8) & 0xFFU];

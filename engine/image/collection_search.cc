@@ -142,7 +142,6 @@ struct Promise {
     Score bound = 0;
     std::size_t part = 0;
     int block = 0;
-
 };
 
 // The blocks from the best bound on, as far as they are asked for.

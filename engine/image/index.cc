@@ -138,7 +138,8 @@ void Index::State::seal_with(Collection& collection, std::vector<const Record*> 
     }
     std::ranges::sort(records, {}, &Record::id);
     for (std::span<const Record* const> rest = records; !rest.empty();) {
-        const auto block = rest.first(std::min(rest.size(), std::size_t{kMaxSegmentSlots}));
+        const auto block =
+            rest.first(std::min(rest.size(), std::size_t{kMaxSegmentSlots}));
         collection.segments.push_back(
             {Segment::from_records(block, options_.index_m), nullptr});
         rest = rest.subspan(block.size());

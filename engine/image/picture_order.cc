@@ -35,7 +35,7 @@ double reference_weight(int bit) {
     };
     // The literal rule gives the coarsest the weight of the average, many times that of
     // all others; a part of it keeps them first without forgetting the rest.
-    return (weight(BinRule::kLog2Plus1) + weight(BinRule::kLiteral) / 8.0) * 0.001;
+    return weight(BinRule::kLog2Plus1) + weight(BinRule::kLiteral) / 8.0;
 }
 
 class KdTree {
@@ -87,9 +87,8 @@ class KdTree {
                     return terms_[picture].average[best_average];
                 });
         } else if (best_sign >= 0) {
-            const auto with = std::ranges::partition(pictures, [&](auto picture) {
-                return !signs_[picture].test(best_sign);
-            });
+            const auto with = std::ranges::partition(
+                pictures, [&](auto picture) { return !signs_[picture].test(best_sign); });
             at = pictures.size() - with.size();
         } else {
             return;  // all alike
@@ -107,7 +106,8 @@ class KdTree {
         for (const std::uint32_t picture : sampled_) {
             int base = 0;
             for (std::uint64_t word : signs_[picture].words()) {
-                for (; word != 0; word &= word - 1) ++counts_[base + std::countr_zero(word)];
+                for (; word != 0; word &= word - 1)
+                    ++counts_[base + std::countr_zero(word)];
                 base += 64;
             }
         }
@@ -151,9 +151,8 @@ int CoarseSigns::bit_of(std::uint32_t key) {
            channel_and_sign % 2;
 }
 
-std::vector<std::uint32_t> picture_order(
-    std::span<const PictureTerms> terms,
-    std::span<const CoarseSigns> signs) {
+std::vector<std::uint32_t> picture_order(std::span<const PictureTerms> terms,
+                                         std::span<const CoarseSigns> signs) {
     return KdTree(terms, signs).order();
 }
 

@@ -53,7 +53,6 @@ SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {
     blocks_visited += other.blocks_visited;
     rows += other.rows;
     compared += other.compared;
-    averaged += other.averaged;
     return *this;
 }
 

@@ -94,7 +94,6 @@ struct SearchEffort {
     std::int64_t blocks = 0;          // of 256 pictures, in sealed segments
     std::int64_t blocks_visited = 0;  // whose rows were added up
     std::int64_t rows = 0;            // of 256 bits that were read
-    std::int64_t averaged = 0;
     std::int64_t compared = 0;        // pictures whose score was computed exactly
 
     SearchEffort& operator+=(const SearchEffort& other);

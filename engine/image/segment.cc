@@ -52,42 +52,22 @@ void send_dense(const SegmentView& view,
     }
 }
 
-// Those of lists that are dense above are among the dense ones already.
-bool is_dense_above(const SegmentView& view, std::uint32_t key) {
-    return DirectoryEntry(view.directory[key]).dense() != DirectoryEntry::kNone;
-}
-
-void send_warm(const SegmentView& view,
-               std::span<const std::int32_t> place_of,
-               Outbox& out) {
-    const auto blocks = std::size_t(view.counts.blocks());
-    for (std::size_t list = 0; list < view.counts.warm; ++list) {
-        const std::uint32_t key = view.sparse_keys[list];
-        if (is_dense_above(view, key)) continue;
-        for (std::size_t block = 0; block < blocks; ++block) {
-            const std::size_t end = warm_run_begin(view, list, block + 1);
-            for (std::size_t i = warm_run_begin(view, list, block); i < end; ++i) {
-                const std::int32_t place =
-                    place_of[block * kBlockSlots + view.warm_slots[i]];
-                if (place != kLeftOut)
-                    out.send({key, std::uint32_t(place), view.warm_ranks[i]});
+// Those of lists that are dense in a tier above are among the dense ones already.
+void send_own(const SegmentView& view,
+              std::span<const std::int32_t> place_of,
+              Outbox& out) {
+    const auto top = std::size_t(view.tiers.top());
+    for (std::size_t slot = 0; slot < view.counts.slots; ++slot) {
+        const std::int32_t place = place_of[slot];
+        if (place == kLeftOut) continue;
+        std::size_t at = view.own_begin[slot];
+        for (int c = 0; c < kChannels; ++c) {
+            for (const std::size_t end = at + view.own_counts[slot][c][top]; at < end;
+                 ++at) {
+                const std::uint32_t key = coefficient_key(c, view.own[at]);
+                if (DirectoryEntry(view.directory[key]).dense() == DirectoryEntry::kNone)
+                    out.send({key, std::uint32_t(place), view.own_ranks[at]});
             }
-        }
-    }
-}
-
-void send_rare(const SegmentView& view,
-               std::span<const std::int32_t> place_of,
-               Outbox& out) {
-    for (std::size_t list = 0; list < view.counts.rare; ++list) {
-        const std::uint32_t key = view.sparse_keys[view.counts.warm + list];
-        if (is_dense_above(view, key)) continue;
-        for (std::uint32_t i = view.rare_begin[list]; i < view.rare_begin[list + 1]; ++i) {
-            const RarePosting posting =
-                read_rare(view.rare_postings.data() + i * RarePosting::kBytes);
-            const std::int32_t place = place_of[std::size_t(posting.slot)];
-            if (place != kLeftOut)
-                out.send({key, std::uint32_t(place), std::uint8_t(posting.rank)});
         }
     }
 }
@@ -101,8 +81,7 @@ void for_each_posting(const SegmentView& view,
                       const PostingSink& sink) {
     Outbox out(sink);
     send_dense(view, place_of, out);
-    send_warm(view, place_of, out);
-    send_rare(view, place_of, out);
+    send_own(view, place_of, out);
     out.flush();
 }
 
@@ -178,7 +157,8 @@ std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts
     columns.ids.reserve(sources.size());
     columns.terms.reserve(sources.size());
     for (const Source& source : sources) {
-        place_of[source.part][source.slot] = static_cast<std::int32_t>(columns.ids.size());
+        place_of[source.part][source.slot] =
+            static_cast<std::int32_t>(columns.ids.size());
         columns.ids.push_back(source.id);
         columns.terms.push_back(parts[source.part].segment->view_.terms[source.slot]);
     }

@@ -35,8 +35,8 @@ struct PictureColumns {
 // Gives every posting, some at a time, in any order; best list by list, or picture by picture
 // in the order of `places`, so that neighbouring writes meet.
 using PostingSink = std::function<void(std::span<const PlacedPosting>)>;
-using PostingSource = std::function<void(std::span<const std::uint32_t> places,
-                                         const PostingSink& sink)>;
+using PostingSource =
+    std::function<void(std::span<const std::uint32_t> places, const PostingSink& sink)>;
 
 // Memory that is aligned as segments want it.
 struct AlignedBytesDeleter {

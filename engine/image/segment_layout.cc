@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -34,17 +35,15 @@ class Carver {
 };
 
 template <bool kMutable>
-SegmentSpans<kMutable> carve_all(
-    const SegmentCounts& counts,
-    typename Carver<kMutable>::Byte* bytes,
-    SegmentBytes& sizes) {
+SegmentSpans<kMutable> carve_all(const SegmentCounts& counts,
+                                 typename Carver<kMutable>::Byte* bytes,
+                                 SegmentBytes& sizes) {
     SegmentSpans<kMutable> spans;
     spans.counts = counts;
     spans.tiers = tiers_of(static_cast<int>(counts.index_m));
     Carver<kMutable> carver(bytes);
     const auto slots = std::size_t{counts.slots};
     const auto blocks = static_cast<std::size_t>(counts.blocks());
-    const auto groups = static_cast<std::size_t>(counts.groups());
     const std::size_t dense = counts.dense[std::size_t(spans.tiers.top())];
     carver.carve(spans.terms, slots);
     carver.carve(spans.ids, slots);
@@ -57,18 +56,14 @@ SegmentSpans<kMutable> carve_all(
         carver.carve(spans.presence[t], counts.dense[t] * counts.presence_words());
     }
     carver.carve(spans.coarse_rows, counts.coarse * counts.coarse_row_words());
-    carver.carve(spans.coarse_row, std::size_t{counts.warm} + counts.rare);
-    carver.carve(spans.warm_begin, counts.warm * (groups + 1));
-    carver.carve(spans.warm_runs, counts.warm * (blocks + 1));
-    carver.carve(spans.warm_slots, counts.warm_postings);
-    carver.carve(spans.rare_begin, std::size_t{counts.rare} + 1);
-    carver.carve(spans.rare_postings, counts.rare_postings * RarePosting::kBytes);
+    carver.carve(spans.own_begin, slots + 1);
+    carver.carve(spans.own_counts, slots);
+    carver.carve(spans.own, counts.own_postings);
     sizes.without_ranks = carver.used();
     carver.carve(spans.dense_keys, dense);
-    carver.carve(spans.sparse_keys, std::size_t{counts.warm} + counts.rare);
     carver.carve(spans.dense_rank_begin, dense * blocks);
     carver.carve(spans.dense_ranks, counts.dense_postings);
-    carver.carve(spans.warm_ranks, counts.warm_postings);
+    carver.carve(spans.own_ranks, counts.own_postings);
     sizes.total = carver.used();
     return spans;
 }
@@ -88,17 +83,14 @@ bool counts_are_possible(const SegmentCounts& counts) {
     const Tiers tiers = tiers_of(static_cast<int>(counts.index_m));
     for (int t = 0; t < kMaxTiers; ++t) {
         if (t >= tiers.count && counts.dense[t] != 0) return false;
-        if (counts.dense[t] > kMaxDenseLists) return false;
+        if (counts.dense[t] > DirectoryEntry::kMost) return false;
         if (t > 0 && t < tiers.count && counts.dense[t] < counts.dense[t - 1])
             return false;
     }
     const std::uint64_t postings =
         std::uint64_t{counts.slots} * kChannels * counts.index_m;
-    return std::uint64_t{counts.warm} + counts.rare <= kKeyCount &&
-           counts.coarse <= counts.warm + counts.rare &&
-           counts.dense_postings <= postings && counts.rare_postings <= postings &&
-           // A dense list may be a warm one too, in the tiers below.
-           counts.warm_postings <= 2 * postings;
+    return counts.coarse <= DirectoryEntry::kMost && counts.dense_postings <= postings &&
+           counts.own_postings <= postings;
 }
 
 // Every slot stands in slots_by_id once, and its ids rise.
@@ -117,72 +109,42 @@ Result<void> check_ids(const SegmentView& view) {
 
 Result<void> check_directory(const SegmentView& view) {
     const auto dense = int(view.counts.dense[std::size_t(view.tiers.top())]);
-    const auto sparse = int(view.counts.warm + view.counts.rare);
-    std::size_t key = 0;
-    for (const std::uint32_t bits : view.directory) {
-        const DirectoryEntry entry(bits);
-        if (entry.dense() >= dense || entry.sparse() >= sparse)
-            return corrupt(at("directory entry", key, bits));
-        ++key;
+    const auto coarse = int(view.counts.coarse);
+    for (std::size_t key = 0; key < view.directory.size(); ++key) {
+        const DirectoryEntry entry(view.directory[key]);
+        if (entry.dense() >= dense || entry.coarse() >= coarse)
+            return corrupt(at("directory entry", key, entry.bits()));
     }
-    for (std::size_t list = 0; list < view.coarse_row.size(); ++list) {
-        if (view.coarse_row[list] >= view.counts.coarse)
-            return corrupt(at("coarse row of list", list, view.coarse_row[list]));
-    }
-    for (const auto& keys : {view.dense_keys, view.sparse_keys}) {
-        const auto* const found =
-            std::ranges::find_if(keys.data(), keys.data() + keys.size(), [](auto k) {
-                return k >= kKeyCount || k % kCoefficientCount == 0;
-            });
-        if (found != keys.data() + keys.size())
-            return corrupt(at("key of list", std::size_t(found - keys.data()), *found));
+    for (std::size_t list = 0; list < view.dense_keys.size(); ++list) {
+        const std::uint32_t key = view.dense_keys[list];
+        if (key >= kKeyCount || DirectoryEntry(view.directory[key]).dense() != int(list))
+            return corrupt(at("key of list", list, key));
     }
     return {};
 }
 
-// Where each run begins, in the order of lists and blocks; the last ends with the slots.
-Result<void> check_warm(const SegmentView& view) {
-    const auto blocks = static_cast<std::size_t>(view.counts.blocks());
-    const auto groups = static_cast<std::size_t>(view.counts.groups());
-    std::uint64_t last = 0;
-    for (std::size_t list = 0; list < view.counts.warm; ++list) {
-        const auto begin = view.warm_begin.subspan(list * (groups + 1), groups + 1);
-        const auto runs = view.warm_runs.subspan(list * (blocks + 1), blocks + 1);
-        WarmRun before(0);
-        for (std::size_t block = 0; block <= blocks; ++block) {
-            const WarmRun run(runs[block]);
-            const std::uint64_t start =
-                std::uint64_t{begin[block / kGroupBlocks]} + run.begin();
-            const bool ends_well =
-                block == 0 ? start == last
-                           : start >= last + std::max(before.in_tier(0),
-                                                      before.in_tier(1)) &&
-                                 start <= last + kBlockSlots;
-            if (!ends_well || start > view.warm_slots.size())
-                return corrupt(at("warm run", list * (blocks + 1) + block, start));
-            last = start;
-            before = run;
+// The lists of the pictures follow one another, and their counts say how long they are.
+Result<void> check_own(const SegmentView& view) {
+    std::uint64_t next = 0;
+    for (std::size_t slot = 0; slot < view.counts.slots; ++slot) {
+        if (view.own_begin[slot] != next)
+            return corrupt(at("begin of slot", slot, view.own_begin[slot]));
+        for (const auto& tiers : view.own_counts[slot]) {
+            for (int t = 0; t < kMaxTiers; ++t) {
+                const bool rises = t == 0 || tiers[t] >= tiers[t - 1];
+                if (!rises ||
+                    tiers[t] > (t <= view.tiers.top() ? view.tiers.m[t] : tiers[t - 1]))
+                    return corrupt(at("count of slot", slot, tiers[t]));
+            }
+            next += tiers[std::size_t(view.tiers.top())];
         }
     }
-    if (last != view.warm_slots.size()) return corrupt(at("end of warm runs", 0, last));
-    return {};
-}
-
-Result<void> check_rare(const SegmentView& view) {
-    if (view.rare_begin.front() != 0 || view.rare_begin.back() != view.counts.rare_postings)
-        return corrupt(at("end of rare lists", view.counts.rare, view.rare_begin.back()));
-    for (std::size_t list = 0; list < view.counts.rare; ++list) {
-        const std::uint32_t end = view.rare_begin[list + 1];
-        if (end < view.rare_begin[list] || end > view.counts.rare_postings)
-            return corrupt(at("end of rare list", list, end));
-        int last = -1;
-        for (std::uint32_t i = view.rare_begin[list]; i < end; ++i) {
-            const RarePosting posting =
-                read_rare(view.rare_postings.data() + i * RarePosting::kBytes);
-            if (posting.slot <= last || posting.slot >= int(view.counts.slots))
-                return corrupt(at("rare posting", i, std::uint64_t(posting.slot)));
-            last = posting.slot;
-        }
+    if (view.own_begin.back() != next || next != view.counts.own_postings)
+        return corrupt(at("end of slot", view.counts.slots, view.own_begin.back()));
+    for (std::size_t i = 0; i < view.own.size(); ++i) {
+        const int index = std::abs(int{view.own[i]});
+        if (index < 1 || index >= kCoefficientCount)
+            return corrupt(at("coefficient", i, std::uint64_t(index)));
     }
     return {};
 }
@@ -197,9 +159,8 @@ Result<void> check_dense_ranks(const SegmentView& view) {
             const std::size_t place = list * blocks + block;
             if (view.dense_rank_begin[place] != ranks)
                 return corrupt(at("ranks of block", place, view.dense_rank_begin[place]));
-            const auto bits =
-                rows.subspan(list * view.counts.row_words() + block * kBlockWords,
-                             kBlockWords);
+            const auto bits = rows.subspan(
+                list * view.counts.row_words() + block * kBlockWords, kBlockWords);
             for (const std::uint64_t word : bits)
                 ranks += std::uint64_t(std::popcount(word));
         }
@@ -254,8 +215,7 @@ Result<SegmentView> view_segment(const SegmentCounts& counts,
     if (segment_bytes(counts).total != bytes.size())
         return corrupt(at("size", 0, bytes.size()));
     const SegmentView view = spans_of(counts, bytes);
-    for (const auto check :
-         {check_ids, check_directory, check_warm, check_rare, check_dense_ranks}) {
+    for (const auto check : {check_ids, check_directory, check_own, check_dense_ranks}) {
         if (Result<void> sound = check(view); !sound) return std::move(sound).error();
     }
     return view;

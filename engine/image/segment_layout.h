@@ -2,14 +2,10 @@
 // built once, written to a file as it is, and mapped from there.
 //   search_arrays.h -> [segment_layout.h] -> segment_search.h
 //
-// Shape   blocks of 256 neighbouring slots. Every list of the six search arrays is kept in
-//         one of three ways, by what takes fewer bytes:
-//           dense  a row of bits, one per slot, for each prefix tier in which many have it;
-//           warm   for each block the slots that have it, one byte each;
-//           rare   slots and ranks, three bytes each.
-//         Warm and rare lists share coarse rows of bits besides: a bit says that one of the
-//         lists of the row has one of four neighbouring slots, so that few pictures are looked
-//         for in the lists themselves.
+// Shape   blocks of 256 neighbouring slots. A list that many pictures share is dense: a row of
+//         bits, one per slot. All others share coarse rows: a bit says that one of the lists
+//         of the row has one of four neighbouring slots; which one is found in the picture's
+//         own list of such coefficients.
 // Tiers   signatures are cut to their m largest coefficients, so a list has as many versions
 //         as there are m. Three of them can be read off at once: m = 20, 40 and index_m. For
 //         another m the next tier is a superset, and the ranks, which come last in the
@@ -36,9 +32,6 @@ inline constexpr int kMaxSegmentSlots = 1 << 17;
 inline constexpr int kMaxTiers = 3;
 // Neighbouring slots that share a bit of a coarse row, and blocks that share a word of it.
 inline constexpr int kCoarseSlots = 4;
-// Offsets of warm runs are counted anew in each group of blocks, so that 16 bits do.
-inline constexpr int kGroupBlocks = 16;
-
 // The prefixes that an index of that many coefficients keeps lists for, rising; the last is
 // index_m.
 struct Tiers {
@@ -56,23 +49,19 @@ struct SegmentCounts {
     std::uint32_t slots = 0;
     // Lists that are dense in a tier are dense in all later ones and stand first there.
     std::array<std::uint32_t, kMaxTiers> dense{};
-    std::uint32_t coarse = 0;          // rows of bits that warm and rare lists share
-    std::uint32_t warm = 0;            // lists
-    std::uint32_t rare = 0;            // lists
+    std::uint32_t coarse = 0;          // rows of bits that all other lists share
     std::uint64_t dense_postings = 0;  // in the top tier
-    std::uint64_t warm_postings = 0;
-    std::uint64_t rare_postings = 0;
+    std::uint64_t own_postings = 0;    // in the lists of the pictures themselves
 
-    [[nodiscard]] int blocks() const { return (int(slots) + kBlockSlots - 1) / kBlockSlots; }
-    [[nodiscard]] int groups() const { return (blocks() + kGroupBlocks - 1) / kGroupBlocks; }
+    [[nodiscard]] int blocks() const {
+        return (int(slots) + kBlockSlots - 1) / kBlockSlots;
+    }
     [[nodiscard]] std::size_t block_words() const {
         return std::size_t(blocks()) * kBlockWords;
     }
     // From one row to the next: an odd number of cache lines, so that the same block of many
     // rows does not fall into one set of the cache.
-    [[nodiscard]] std::size_t row_words() const {
-        return odd_lines(block_words());
-    }
+    [[nodiscard]] std::size_t row_words() const { return odd_lines(block_words()); }
     // The same of coarse rows, which have a bit for kCoarseSlots slots.
     [[nodiscard]] std::size_t coarse_row_words() const {
         return odd_lines((block_words() + kCoarseSlots - 1) / kCoarseSlots);
@@ -90,67 +79,35 @@ struct SegmentCounts {
     }
 };
 
-// Where a key's list is, in 32 bits: a dense one and, for the tiers below, a warm or rare
-// one.
+// Where a key's list is, in 16 bits: a dense one, a coarse row, or nowhere.
 class DirectoryEntry {
   public:
     static constexpr int kNone = -1;
+    static constexpr int kMost = (1 << 15) - 1;
 
     DirectoryEntry() = default;
-    explicit DirectoryEntry(std::uint32_t bits) : bits_(bits) {}
-    DirectoryEntry(int dense, int sparse)
-        : bits_(static_cast<std::uint32_t>(dense + 1) |
-                static_cast<std::uint32_t>(sparse + 1) << kDenseBits) {}
-
-    [[nodiscard]] int dense() const { return int(bits_ & ((1U << kDenseBits) - 1)) - 1; }
-    // Warm lists are counted first, then the rare ones.
-    [[nodiscard]] int sparse() const { return int(bits_ >> kDenseBits) - 1; }
-    [[nodiscard]] std::uint32_t bits() const { return bits_; }
-
-  private:
-    static constexpr int kDenseBits = 15;
-    std::uint32_t bits_ = 0;
-};
-inline constexpr int kMaxDenseLists = (1 << 15) - 2;
-
-// The warm postings of one list in one block: where they begin within their group of
-// blocks, and how many belong to the first and to the first two tiers.
-class WarmRun {
-  public:
-    explicit WarmRun(std::uint32_t bits) : bits_(bits) {}
-    WarmRun(std::uint32_t begin, std::uint32_t first, std::uint32_t first_two)
-        : bits_(begin | first << 16 | first_two << 24) {}
-
-    static constexpr std::uint32_t kMaxCount = 255;
-
-    [[nodiscard]] std::uint32_t begin() const { return bits_ & 0xFFFFU; }
-    [[nodiscard]] std::uint32_t in_tier(int tier) const {
-        return tier == 0 ? bits_ >> 16 & 0xFFU : bits_ >> 24;
+    explicit DirectoryEntry(std::uint16_t bits) : bits_(bits) {}
+    [[nodiscard]] static DirectoryEntry of_dense(int list) {
+        return DirectoryEntry(static_cast<std::uint16_t>(list + 1));
     }
-    [[nodiscard]] std::uint32_t bits() const { return bits_; }
+    [[nodiscard]] static DirectoryEntry of_coarse(int row) {
+        return DirectoryEntry(static_cast<std::uint16_t>(kCoarse | row));
+    }
+
+    [[nodiscard]] int dense() const { return (bits_ & kCoarse) != 0 ? kNone : bits_ - 1; }
+    [[nodiscard]] int coarse() const {
+        return (bits_ & kCoarse) != 0 ? bits_ & ~kCoarse : kNone;
+    }
+    [[nodiscard]] std::uint16_t bits() const { return bits_; }
 
   private:
-    std::uint32_t bits_;
+    static constexpr int kCoarse = 1 << 15;
+    std::uint16_t bits_ = 0;
 };
 
-// A rare posting: 17 bits of slot and 7 of rank.
-struct RarePosting {
-    static constexpr std::size_t kBytes = 3;
-    int slot = 0;
-    int rank = 0;
-};
-[[nodiscard]] inline RarePosting read_rare(const std::uint8_t* at) {
-    const std::uint32_t bits =
-        at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16;
-    return {int(bits & (kMaxSegmentSlots - 1)), int(bits >> 17)};
-}
-inline void write_rare(const RarePosting& posting, std::uint8_t* at) {
-    const std::uint32_t bits = std::uint32_t(posting.slot) | std::uint32_t(posting.rank)
-                                                                 << 17;
-    at[0] = static_cast<std::uint8_t>(bits);
-    at[1] = static_cast<std::uint8_t>(bits >> 8);
-    at[2] = static_cast<std::uint8_t>(bits >> 16);
-}
+// How many of a picture's own coefficients of each channel belong to each tier, the lower
+// ones included.
+using OwnCounts = std::array<std::array<std::uint8_t, kMaxTiers>, kChannels>;
 
 // What is known of a picture beside its coefficients, in one piece: whoever asks for one of
 // these numbers asks for all.
@@ -172,22 +129,21 @@ struct SegmentSpans {
     Span<std::uint32_t> slots_by_id;                   // slots in rising order of id
     std::array<Span<std::int32_t>, kChannels> lowest;  // average of each block
     std::array<Span<std::int32_t>, kChannels> highest;
-    Span<std::uint32_t> directory;                          // [key]: DirectoryEntry
-    std::array<Span<std::uint64_t>, kMaxTiers> rows;        // [dense][row_words]
-    std::array<Span<std::uint64_t>, kMaxTiers> presence;    // [dense][presence_words]
-    Span<std::uint64_t> coarse_rows;                        // [coarse][coarse_row_words]
-    Span<std::uint16_t> coarse_row;                         // [warm + rare]: its row
-    Span<std::uint32_t> warm_begin;                         // [warm][groups + 1]
-    Span<std::uint32_t> warm_runs;                          // [warm][blocks + 1]: WarmRun
-    Span<std::uint8_t> warm_slots;                          // within the block
-    Span<std::uint32_t> rare_begin;                         // [rare + 1]
-    Span<std::uint8_t> rare_postings;                       // slots rising in each list
+    Span<std::uint16_t> directory;                        // [key]: DirectoryEntry
+    std::array<Span<std::uint64_t>, kMaxTiers> rows;      // [dense][row_words]
+    std::array<Span<std::uint64_t>, kMaxTiers> presence;  // [dense][presence_words]
+    Span<std::uint64_t> coarse_rows;                      // [coarse][coarse_row_words]
+    // Coefficients that are not dense, or only in a tier above their own: signed indices,
+    // picture after picture, channel after channel, in falling order of magnitude.
+    Span<std::uint32_t> own_begin;  // [slot], and the end of the last
+    Span<OwnCounts> own_counts;     // [slot]
+    Span<std::int16_t> own;
     // From here on: what only another m, or a merge, asks for.
-    Span<std::uint32_t> dense_keys;        // [dense in the top tier]
-    Span<std::uint32_t> sparse_keys;       // [warm + rare]
-    Span<std::uint32_t> dense_rank_begin;  // [dense][blocks]: of the block's first posting
-    Span<std::uint8_t> dense_ranks;        // of each bit of the top tier's rows
-    Span<std::uint8_t> warm_ranks;         // of each warm slot
+    Span<std::uint32_t> dense_keys;  // [dense in the top tier]
+    Span<std::uint32_t>
+        dense_rank_begin;            // [dense][blocks]: of the block's first posting
+    Span<std::uint8_t> dense_ranks;  // of each bit of the top tier's rows
+    Span<std::uint8_t> own_ranks;    // of each of `own`
 };
 using SegmentView = SegmentSpans<false>;
 using SegmentUnderConstruction = SegmentSpans<true>;
@@ -208,17 +164,6 @@ template <bool kMutable>
         place += std::size_t(std::popcount(row[word]));
     const std::uint64_t below = (std::uint64_t{1} << (in_block % 64)) - 1;
     return place + std::size_t(std::popcount(row[in_block / 64] & below));
-}
-
-// Where the run of a warm list in a block begins; that of the block after the last ends it.
-template <bool kMutable>
-[[nodiscard]] std::size_t warm_run_begin(const SegmentSpans<kMutable>& spans,
-                                         std::size_t list,
-                                         std::size_t block) {
-    const auto groups = static_cast<std::size_t>(spans.counts.groups());
-    const auto blocks = static_cast<std::size_t>(spans.counts.blocks());
-    return spans.warm_begin[list * (groups + 1) + block / kGroupBlocks] +
-           WarmRun(spans.warm_runs[list * (blocks + 1) + block]).begin();
 }
 
 // How many bytes a segment of these counts has; those before the ranks alone.

@@ -13,14 +13,16 @@
 namespace haarmony::image {
 namespace {
 
-// Sums of rounded weights stay near this: fine enough that few pictures pass by rounding,
-// coarse enough that weights have few one-bits.
+// Sums of rounded weights stay between these: fine enough that few pictures pass by
+// rounding, coarse enough that weights have few one-bits.
 constexpr std::int64_t kMostSteps = 1024;
 constexpr std::int64_t kFewestSteps = 200;
 constexpr std::int64_t kUnitsTried = 16;
+// What a share lost by rounding costs in pictures compared, in shares of the summing.
 constexpr double kCostOfRounding = 40.0;
 
 constexpr std::size_t kWordsPerLine = 8;
+// In units; no sum of units comes near it.
 constexpr std::uint32_t kOutOfReach = std::uint32_t{1} << 31;
 
 std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
@@ -31,7 +33,8 @@ BlockBits existing(int slots, int block) {
     const int here = slots - block * kBlockSlots;
     for (int word = 0; word < kBlockWords; ++word) {
         const int in_word = std::clamp(here - word * 64, 0, 64);
-        bits[word] = in_word == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << in_word) - 1;
+        bits[word] =
+            in_word == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << in_word) - 1;
     }
     return bits;
 }
@@ -87,32 +90,36 @@ void SegmentSearch::Rows::make_plan(std::int64_t unit, std::uint32_t before) {
     for (const Row& row : rows) words.push_back(row.words);
 }
 
+void SegmentSearch::OwnTerms::add(std::uint32_t key, std::int32_t weight) {
+    std::size_t at = place(key);
+    while (keys_[at] != kFree && keys_[at] != key) at = (at + 1) % kSize;
+    keys_[at] = key;
+    weights_[at] += weight;
+}
+
 void SegmentSearch::find_rows() {
     const SegmentCounts& counts = view_->counts;
     for (const QueryTerm& term : query_->terms) {
         if (term.weight == 0) continue;
         const DirectoryEntry entry(view_->directory[term.key]);
-        int tier = tier_;
-        if (entry.dense() != DirectoryEntry::kNone) {
-            while (entry.dense() >= int(counts.dense[tier])) ++tier;
-        }
-        const bool is_dense = entry.dense() != DirectoryEntry::kNone && tier == tier_;
-        // In a higher tier it is dense, in this one it has no list at all.
-        if (!is_dense && entry.sparse() == DirectoryEntry::kNone) continue;
         Row row;
         row.weight = term.weight;
-        row.hint = !is_dense;
-        row.list = is_dense ? entry.dense() : entry.sparse();
         if (entry.dense() != DirectoryEntry::kNone) {
+            int tier = tier_;
+            while (entry.dense() >= int(counts.dense[tier])) ++tier;
+            row.list = entry.dense();
+            row.hint = tier != tier_;
             const auto list = static_cast<std::size_t>(entry.dense());
             row.words = view_->rows[tier].data() + list * counts.row_words();
             row.presence = view_->presence[tier].data() + list * counts.presence_words();
             fine_.rows.push_back(row);
-        } else {
-            const std::size_t list = view_->coarse_row[std::size_t(entry.sparse())];
-            row.words = view_->coarse_rows.data() + list * counts.coarse_row_words();
+        } else if (entry.coarse() != DirectoryEntry::kNone) {
+            row.hint = true;
+            row.words = view_->coarse_rows.data() +
+                        std::size_t(entry.coarse()) * counts.coarse_row_words();
             coarse_.rows.push_back(row);
         }
+        if (row.hint) own_.add(term.key, term.weight);
     }
 }
 
@@ -125,7 +132,8 @@ void SegmentSearch::choose_unit() {
     double best_cost = std::numeric_limits<double>::max();
     const std::int64_t finest = std::max<std::int64_t>(1, sum / kMostSteps);
     const std::int64_t coarsest = std::max<std::int64_t>(1, sum / kFewestSteps);
-    const std::int64_t step = std::max<std::int64_t>(1, (coarsest - finest) / kUnitsTried);
+    const std::int64_t step =
+        std::max<std::int64_t>(1, (coarsest - finest) / kUnitsTried);
     for (std::int64_t unit = finest; unit <= coarsest; unit += step) {
         std::int64_t ones = 0;
         std::int64_t rounded = 0;
@@ -161,7 +169,8 @@ void SegmentSearch::bound_blocks() {
     for (std::size_t first = 0; first < bounds_.size(); first += kBlockSlots) {
         add_rows(fine_.plan, presence, first / 64, 1, 0, sums);
         unpack(sums, fine_.plan.planes(), 0, unpacked);
-        const std::size_t count = std::min(bounds_.size() - first, std::size_t{kBlockSlots});
+        const std::size_t count =
+            std::min(bounds_.size() - first, std::size_t{kBlockSlots});
         for (std::size_t i = 0; i < count; ++i) {
             bounds_[first + i] =
                 lowest_terms_of_averages(first + i) -
@@ -178,9 +187,8 @@ Score SegmentSearch::terms_of_averages(std::size_t slot) const {
 Score SegmentSearch::lowest_terms_of_averages(std::size_t block) const {
     Score lowest = 0;
     for (int c = 0; c < kChannels; ++c) {
-        const std::int64_t nearest = std::clamp(query_->average[c],
-                                                view_->lowest[c][block],
-                                                view_->highest[c][block]);
+        const std::int64_t nearest = std::clamp(
+            query_->average[c], view_->lowest[c][block], view_->highest[c][block]);
         lowest += query_->average_weight[c] * std::abs(query_->average[c] - nearest);
     }
     return lowest;
@@ -203,87 +211,45 @@ void SegmentSearch::prefetch(int first, int count) const {
     }
 }
 
-bool SegmentSearch::has(const Row& row, std::size_t slot) const {
-    if (row.hint) return has_sparse(row.list, slot);
-    return exact_ || has_dense(row.list, slot);
+std::int64_t SegmentSearch::matches(std::size_t slot) const {
+    return dense_matches(slot) + own_matches(slot);
 }
 
-bool SegmentSearch::has_dense(int list, std::size_t slot) const {
-    const std::size_t place = dense_rank_place(*view_, std::size_t(list), slot);
-    return view_->dense_ranks[place] < query_->m;
-}
-
-bool SegmentSearch::has_sparse(int list, std::size_t slot) const {
-    const auto warm = view_->counts.warm;
-    const auto place = static_cast<std::size_t>(list);
-    return place < warm ? has_warm(place, slot) : has_rare(place - warm, slot);
-}
-
-bool SegmentSearch::has_warm(std::size_t list, std::size_t slot) const {
-    const std::size_t block = slot / kBlockSlots;
-    const std::size_t begin = warm_run_begin(*view_, list, block);
-    std::size_t end = warm_run_begin(*view_, list, block + 1);
-    if (tier_ != view_->tiers.top()) {
-        const WarmRun run(
-            view_->warm_runs[list * (std::size_t(blocks()) + 1) + block]);
-        end = std::min<std::size_t>(end, begin + run.in_tier(tier_));
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-        if (view_->warm_slots[i] == slot % kBlockSlots)
-            return exact_ || view_->warm_ranks[i] < query_->m;
-    }
-    return false;
-}
-
-bool SegmentSearch::has_rare(std::size_t list, std::size_t slot) const {
-    std::uint32_t begin = view_->rare_begin[list];
-    std::uint32_t end = view_->rare_begin[list + 1];
-    const auto posting = [&](std::uint32_t i) {
-        return read_rare(view_->rare_postings.data() + i * RarePosting::kBytes);
-    };
-    const auto wanted = static_cast<int>(slot);
-    while (begin < end) {
-        const std::uint32_t middle = begin + (end - begin) / 2;
-        if (posting(middle).slot < wanted) {
-            begin = middle + 1;
-        } else {
-            end = middle;
+std::int64_t SegmentSearch::dense_matches(std::size_t slot) const {
+    std::int64_t matched = 0;
+    for (const Row& row : fine_.rows) {
+        if (row.hint || !test(row.words, slot)) continue;
+        if (!exact_) {
+            const std::size_t place =
+                dense_rank_place(*view_, std::size_t(row.list), slot);
+            if (view_->dense_ranks[place] >= query_->m) continue;
         }
+        matched += row.weight;
     }
-    if (begin == view_->rare_begin[list + 1]) return false;
-    const RarePosting found = posting(begin);
-    return found.slot == wanted && found.rank < query_->m;
+    return matched;
 }
 
-// Bits first: they are near. Then the lists of those whose bits are set, until too few are
-// left.
-std::int64_t SegmentSearch::matches(std::size_t slot, std::int64_t needed) const {
-    const std::size_t group = slot / kCoarseSlots;
-    std::int64_t possible = 0;
-    const auto add = [&](const Rows& rows, std::size_t bit) {
-        for (const Row& row : rows.rows)
-            possible += row.weight & -static_cast<std::int32_t>(test(row.words, bit));
-    };
-    const auto take_away = [&](const Rows& rows, std::size_t bit) {
-        for (const Row& row : rows.rows) {
-            if (possible < needed) return;
-            if (test(row.words, bit) && !has(row, slot)) possible -= row.weight;
+std::int64_t SegmentSearch::own_matches(std::size_t slot) const {
+    std::int64_t matched = 0;
+    std::size_t begin = view_->own_begin[slot];
+    for (int c = 0; c < kChannels; ++c) {
+        const auto& counts = view_->own_counts[slot][c];
+        const std::size_t end = begin + counts[tier_];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!exact_ && view_->own_ranks[i] >= query_->m) break;
+            matched += own_.weight(coefficient_key(c, view_->own[i]));
         }
-    };
-    add(fine_, slot);
-    add(coarse_, group);
-    take_away(coarse_, group);
-    take_away(fine_, slot);
-    return possible;
+        begin += counts[std::size_t(view_->tiers.top())];
+    }
+    return matched;
 }
 
 void SegmentSearch::score_all(std::vector<Match>& out) const {
-    constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::min();
     for (int block = 0; block < blocks(); ++block) {
         for_each_bit(allowed_in(block), [&](std::uint32_t in_block) {
             const std::size_t slot = std::size_t(block) * kBlockSlots + in_block;
             out.push_back({ImageId{view_->ids[slot]},
-                           terms_of_averages(slot) - matches(slot, kAll) * kAverageOne});
+                           terms_of_averages(slot) - matches(slot) * kAverageOne});
         });
     }
 }
@@ -354,26 +320,36 @@ void Visitor::begin_with_coarse(int first, int count) {
     }
 }
 
+// Step by step, so that what one step reads is asked for in the step before.
 void Visitor::compare_all(int first, int block, const BlockBits& reached) {
-    const PictureTerms* const terms =
-        search_.view_->terms.data() + std::size_t(block) * kBlockSlots;
-    for_each_bit(reached, [&](std::uint32_t slot) { hwy::Prefetch(terms + slot); });
-    const int before = (block - first) * kBlockSlots;
-    for_each_bit(reached, [&](std::uint32_t slot) {
-        compare(block, slot, sums_.at(before + int(slot), search_.fine_.plan.planes()));
+    const SegmentView& view = *search_.view_;
+    const std::size_t before = std::size_t(block) * kBlockSlots;
+    for_each_bit(reached, [&](std::uint32_t in_block) {
+        hwy::Prefetch(&view.terms[before + in_block]);
+        hwy::Prefetch(&view.own_begin[before + in_block]);
+        hwy::Prefetch(&view.own_counts[before + in_block]);
     });
+    candidates_.clear();
+    const int in_sums = (block - first) * kBlockSlots;
+    for_each_bit(reached, [&](std::uint32_t in_block) {
+        const std::size_t slot = before + in_block;
+        const Score averages = search_.terms_of_averages(slot);
+        const std::int64_t units =
+            sums_.at(in_sums + int(in_block), search_.fine_.plan.planes());
+        if (units * search_.unit_ < matches_needed(averages)) return;
+        candidates_.push_back({slot, averages});
+        constexpr std::size_t kPerLine = 32;
+        for (std::size_t i = view.own_begin[slot]; i < view.own_begin[slot + 1];
+             i += kPerLine)
+            hwy::Prefetch(&view.own[i]);
+    });
+    for (const Candidate& candidate : candidates_)
+        compare(candidate.slot, candidate.averages);
 }
 
-void Visitor::compare(int block, std::uint32_t in_block, std::uint32_t units) {
-    const std::size_t slot = std::size_t(block) * kBlockSlots + in_block;
-    const Score averages = search_.terms_of_averages(slot);
-    const std::int64_t needed = matches_needed(averages);
-    ++effort_.averaged;
-    if (units * search_.unit_ < needed) return;
+void Visitor::compare(std::size_t slot, Score averages) {
     ++effort_.compared;
-    const std::int64_t matched = search_.matches(slot, needed);
-    if (matched < needed) return;
-    const Score score = averages - matched * kAverageOne;
+    const Score score = averages - search_.matches(slot) * kAverageOne;
     if (!top_.admits(score)) return;
     top_.offer({ImageId{search_.view_->ids[slot]}, score});
     if (top_.full()) worst_.lower_to(top_.worst());

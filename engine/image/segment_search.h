@@ -66,13 +66,31 @@ class SegmentSearch {
   private:
     friend class Visitor;
 
-    // A row of bits, what a bit of it is worth, and who knows whether a bit is right.
+    // A row of bits and what a bit of it is worth.
     struct Row {
         const std::uint64_t* words = nullptr;
         const std::uint64_t* presence = nullptr;  // null: of a coarse row
         std::int32_t weight = 0;
-        int list = 0;       // the dense one whose row it is; a warm or rare one for a hint
-        bool hint = false;  // the bit may be of another list or tier: the list decides
+        int list = 0;       // the dense one
+        bool hint = false;  // the bit may be of another list or tier: the picture decides
+    };
+    // What the pictures themselves are asked for: a small hash table.
+    class OwnTerms {
+      public:
+        void add(std::uint32_t key, std::int32_t weight);
+        [[nodiscard]] std::int32_t weight(std::uint32_t key) const {
+            for (std::size_t at = place(key);; at = (at + 1) % kSize) {
+                if (keys_[at] == key) return weights_[at];
+                if (keys_[at] == kFree) return 0;
+            }
+        }
+
+      private:
+        static constexpr std::size_t kSize = 1024;  // three times as many as there may be
+        static constexpr std::uint32_t kFree = 0;   // no key: the average's place
+        static std::size_t place(std::uint32_t key) { return (key * 0x9E3779B1U) >> 22; }
+        std::array<std::uint32_t, kSize> keys_{};
+        std::array<std::int32_t, kSize> weights_{};
     };
     // Rows that are added up together.
     struct Rows {
@@ -94,15 +112,10 @@ class SegmentSearch {
     // Of the average colour and the shape: what the score has beside the matches.
     [[nodiscard]] Score terms_of_averages(std::size_t slot) const;
     [[nodiscard]] Score lowest_terms_of_averages(std::size_t block) const;
-    // The weights that the picture in the slot matches, exactly; or something below
-    // `needed`, where they are.
-    [[nodiscard]] std::int64_t matches(std::size_t slot, std::int64_t needed) const;
-    // Whether the picture really has what the bit of the row says.
-    [[nodiscard]] bool has(const Row& row, std::size_t slot) const;
-    [[nodiscard]] bool has_dense(int list, std::size_t slot) const;
-    [[nodiscard]] bool has_sparse(int list, std::size_t slot) const;
-    [[nodiscard]] bool has_warm(std::size_t list, std::size_t slot) const;
-    [[nodiscard]] bool has_rare(std::size_t list, std::size_t slot) const;
+    // The weights that the picture in the slot matches, exactly.
+    [[nodiscard]] std::int64_t matches(std::size_t slot) const;
+    [[nodiscard]] std::int64_t dense_matches(std::size_t slot) const;
+    [[nodiscard]] std::int64_t own_matches(std::size_t slot) const;
 
     const SegmentView* view_;
     const Query* query_;
@@ -112,9 +125,10 @@ class SegmentSearch {
 
     Rows fine_;    // one bit for each slot
     Rows coarse_;  // one bit for kCoarseSlots slots
+    OwnTerms own_;
     // Weights are added up in units, rounded up.
     std::int64_t unit_ = 1;
-    std::vector<Score> bounds_;               // [block]
+    std::vector<Score> bounds_;  // [block]
 };
 
 // Visits blocks of one segment and offers what it finds.
@@ -135,7 +149,7 @@ class Visitor {
     [[nodiscard]] std::uint32_t units_needed(int block) const;
     void begin_with_coarse(int first, int count);
     void compare_all(int first, int block, const BlockBits& reached);
-    void compare(int block, std::uint32_t in_block, std::uint32_t units);
+    void compare(std::size_t slot, Score averages);
 
     const SegmentSearch& search_;
     TopK& top_;
@@ -143,6 +157,11 @@ class Visitor {
     SearchEffort effort_;
     BitSums sums_;
     BitSums coarse_sums_;
+    struct Candidate {
+        std::size_t slot = 0;
+        Score averages = 0;
+    };
+    std::vector<Candidate> candidates_;
 };
 
 }  // namespace haarmony::image
