@@ -171,7 +171,7 @@ BitSumPlan::BitSumPlan(std::span<const std::uint32_t> weights,
     assert(weights.size() <= kMaxRows);
     const std::uint64_t total =
         std::accumulate(weights.begin(), weights.end(), std::uint64_t{most_before});
-    planes_ = std::bit_width(total);
+    planes_ = static_cast<int>(std::bit_width(total));
     assert(planes_ <= kMaxPlanes);
     for (int p = 0; p < planes_; ++p) {
         begin_[p] = rows_.size();

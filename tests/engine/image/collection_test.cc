@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/image/collection_search.h"
+
 namespace haarmony::image {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "engine/image/search_arrays.h"
+#include "engine/image/segment_layout.h"
 
 namespace haarmony::image {
 namespace {
@@ -23,7 +23,7 @@ TEST(MergePlan, OfFewSegmentsOfASizeIsNothing) {
     EXPECT_EQ(plan_merge({}), Plan{});
     EXPECT_EQ(plan_merge(full({1024})), Plan{});
     EXPECT_EQ(plan_merge(full({1024, 1100, 1500})), Plan{});
-    EXPECT_EQ(plan_merge(full({1024, 5000, 20000, 60000})), Plan{});
+    EXPECT_EQ(plan_merge(full({1024, 5000, 20000, 70000})), Plan{});
 }
 
 TEST(MergePlan, TakesAllOfTheSmallestClassThatIsDue) {
@@ -32,10 +32,10 @@ TEST(MergePlan, TakesAllOfTheSmallestClassThatIsDue) {
 }
 
 TEST(MergePlan, NeverMakesMoreThanASegmentHolds) {
-    EXPECT_EQ(plan_merge(full({20000, 20000, 20000, 20000})), (Plan{0, 1, 2}));
-    EXPECT_EQ(plan_merge(full({40000, 40000, 40000, 40000})), Plan{});
-    EXPECT_EQ(plan_merge(full({kMaxSlots, kMaxSlots, kMaxSlots, kMaxSlots})), Plan{});
-    EXPECT_EQ(plan_merge(full({16384, 16384, 16384, 16384})), (Plan{0, 1, 2, 3}));
+    EXPECT_EQ(plan_merge(full({40000, 40000, 40000, 40000})), (Plan{0, 1, 2}));
+    EXPECT_EQ(plan_merge(full({80000, 80000, 80000, 80000})), Plan{});
+    EXPECT_EQ(plan_merge(full({kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots})), Plan{});
+    EXPECT_EQ(plan_merge(full({32768, 32768, 32768, 32768})), (Plan{0, 1, 2, 3}));
 }
 
 TEST(MergePlan, RewritesASegmentThatLostHalf) {
@@ -64,14 +64,14 @@ TEST(MergePlan, KeepsTheListShortAndTheWorkLogarithmic) {
                 segments.erase(segments.begin() + std::ptrdiff_t(at));
             }
             merged.live = merged.slots;
-            ASSERT_LE(merged.slots, kMaxSlots);
+            ASSERT_LE(merged.slots, kMaxSegmentSlots);
             ASSERT_GE(plan.size(), 2U);
             moved += merged.slots;
             segments.push_back(merged);
         }
     }
-    // Full ones hold more than half of kMaxSlots; below them at most three of each class.
-    EXPECT_LE(std::int64_t(segments.size()), 2 * pictures / kMaxSlots + 3 * 9);
+    // Full ones hold more than half of kMaxSegmentSlots; below them at most three of each class.
+    EXPECT_LE(std::int64_t(segments.size()), 2 * pictures / kMaxSegmentSlots + 3 * 9);
     EXPECT_LE(moved, 9 * pictures);
 }
 

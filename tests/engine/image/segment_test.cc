@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
+#include "engine/image/collection.h"
+#include "engine/image/collection_search.h"
 #include "tests/engine/image/random_signatures.h"
 
 namespace haarmony::image {
@@ -33,14 +36,24 @@ TombstonesPtr removed_slots(const Segment& segment, const std::vector<int>& slot
     return removed;
 }
 
-std::vector<Match> search_all(const Segment& segment,
+// The search of a collection of this segment alone.
+std::vector<Match> search_all(const std::shared_ptr<const Segment>& segment,
                               const TombstonesPtr& removed,
                               const Query& query) {
-    TopK top(1000);
-    SegmentScores scores;
-    EXPECT_EQ(segment.search(query, removed, nullptr, scores, top),
-              segment.size() - removed_count(removed));
-    return top.take();
+    Collection collection;
+    collection.index_m = kIndexM;
+    collection.segments.push_back({segment, removed});
+    collection.tail = {std::make_shared<Tail>(1), 0, nullptr};
+    const SearchResult result = search(collection, query, {.limit = 1000});
+    EXPECT_EQ(result.searched, segment->size() - removed_count(removed));
+    return result.matches;
+}
+
+// The slots of some ids.
+std::vector<int> slots_of(const Segment& segment, const std::vector<std::int64_t>& ids) {
+    std::vector<int> slots;
+    for (const std::int64_t id : ids) slots.push_back(*segment.find(ImageId{id}));
+    return slots;
 }
 
 TEST(Tombstones, AreOneBitEach) {
@@ -57,9 +70,11 @@ TEST(Tombstones, AreOneBitEach) {
 
 TEST(Segment, FindsEveryIdAndNoOther) {
     const auto segment = segment_of(random_records({3, 4, 9, 12}, 121));
-    EXPECT_EQ(segment->find(ImageId{3}), 0);
-    EXPECT_EQ(segment->find(ImageId{9}), 2);
-    EXPECT_EQ(segment->find(ImageId{12}), 3);
+    for (const std::int64_t id : {3, 4, 9, 12}) {
+        const std::optional<int> slot = segment->find(ImageId{id});
+        ASSERT_TRUE(slot) << id;
+        EXPECT_EQ(segment->id(*slot), ImageId{id});
+    }
     for (const std::int64_t id : {1, 5, 10, 13}) {
         EXPECT_EQ(segment->find(ImageId{id}), std::nullopt) << id;
     }
@@ -75,8 +90,8 @@ TEST(Segment, RemovedImageNeverMatches) {
     reference.erase(5);
     const Profile profile = *built_in_profile("scanned");
     const Signature& query = records[1].signature;
-    EXPECT_EQ(search_all(*segment,
-                         removed_slots(*segment, {1, 4}),
+    EXPECT_EQ(search_all(segment,
+                         removed_slots(*segment, slots_of(*segment, {2, 5})),
                          make_query(query, profile, kIndexM)),
               search_literally(reference, query, profile, kIndexM, {}).matches);
 }
@@ -86,15 +101,16 @@ TEST(Segment, MergedSearchesLikeTheLiveRecordsOfItsParts) {
                                                       random_records({1, 5, 8}, 124),
                                                       random_records({3}, 125)};
     // Picture 5 was replaced: the version of the first part is gone.
-    const std::vector<std::vector<int>> removed = {{1, 3}, {}, {}};
+    const std::vector<std::vector<std::int64_t>> removed = {{5, 11}, {}, {}};
     std::vector<LiveSegment> parts;
     Reference reference;
     for (std::size_t p = 0; p < records.size(); ++p) {
         const auto segment = segment_of(records[p]);
-        parts.push_back({segment, removed_slots(*segment, removed[p])});
-        for (int slot = 0; slot < segment->size(); ++slot) {
-            if (is_removed(parts[p].removed, slot)) continue;
-            reference[to_int(segment->id(slot))] = {records[p][slot].signature};
+        parts.push_back(
+            {segment, removed_slots(*segment, slots_of(*segment, removed[p]))});
+        for (const Record& record : records[p]) {
+            if (!std::ranges::count(removed[p], to_int(record.id)))
+                reference[to_int(record.id)] = {record.signature};
         }
     }
     const auto merged = Segment::merge(parts);
@@ -103,7 +119,7 @@ TEST(Segment, MergedSearchesLikeTheLiveRecordsOfItsParts) {
     const Profile profile = *built_in_profile("painted");
     for (int m = 1; m <= kIndexM; ++m) {
         const Signature& query = records[0][2].signature;
-        EXPECT_EQ(search_all(*merged, nullptr, make_query(query, profile, m)),
+        EXPECT_EQ(search_all(merged, nullptr, make_query(query, profile, m)),
                   search_literally(reference, query, profile, m, {}).matches)
             << "m " << m;
     }
@@ -115,16 +131,15 @@ TEST(Segment, MergeOfNothingLiveIsNothing) {
     EXPECT_EQ(Segment::merge(parts), nullptr);
 }
 
-TEST(Segment, CountsArraysIdsAndColumns) {
-    const auto one = segment_of(random_records({1}, 127));
-    std::vector<Record> twice = random_records({1}, 127);
-    twice.push_back(twice[0]);
-    twice[1].id = ImageId{2};
-    std::int64_t postings = 0;
-    for (const ChannelSignature& channel : twice[0].signature.channels) {
-        postings += std::min<int>(kIndexM, channel.count);
-    }
-    EXPECT_EQ(segment_of(twice)->bytes() - one->bytes(), 3 * postings + 8 + 4 * 4);
+TEST(Segment, KeepsItsRanksBehindWhatEverySearchReads) {
+    const auto segment = segment_of(random_records({1, 2, 3}, 127));
+    const SegmentBytes bytes = segment->bytes();
+    const SegmentView& view = segment->view();
+    const auto* const begin = reinterpret_cast<const std::byte*>(view.terms.data());
+    EXPECT_EQ(reinterpret_cast<const std::byte*>(view.dense_keys.data()) - begin,
+              std::ptrdiff_t(bytes.without_ranks));
+    EXPECT_EQ(bytes.total, segment_bytes(view.counts).total);
+    EXPECT_GT(bytes.total, bytes.without_ranks);
 }
 
 }  // namespace
