@@ -1,6 +1,6 @@
 // Weighted sums of bits for the 256 pictures of a block at once: the loop over lists of
 // Figure 4.2, turned on its side.
-//   segment_layout.h -> [bit_sums.h] -> segment_search.h
+//   [bit_sums.h] -> segment_layout.h -> segment_search.h
 //
 // A list is a row of bits, one per picture. What a picture's rows weigh together is kept as
 // planes of bits too, and full adders add three whole rows at a time (Wallace, 1964).
