@@ -137,6 +137,26 @@ TEST(PictureOrder, BlocksOfGroupsAreOfOneGroup) {
     }
 }
 
+TEST(PictureOrder, EachChannelAloneTellsGroupsApart) {
+    std::mt19937 random(428);
+    for (std::size_t channel = 0; channel < kChannels; ++channel) {
+        Pictures pictures =
+            planted(std::vector<std::size_t>(9, 256), Differ::kInAverages, random);
+        const PictureTerms same = random_terms(random);
+        for (PictureTerms& terms : pictures.terms) {
+            const std::int32_t own = terms.average[channel];
+            terms = same;
+            terms.average[channel] = own;
+        }
+        const std::vector<std::uint32_t> order = pictures.order();
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::size_t first = i / kBlockSlots * kBlockSlots;
+            ASSERT_EQ(pictures.group[order[i]], pictures.group[order[first]])
+                << "channel " << channel << ", place " << i;
+        }
+    }
+}
+
 TEST(PictureOrder, GroupsOfSignsStayTogetherWhateverTheirSizes) {
     std::mt19937 random(426);
     std::vector<std::size_t> sizes;
