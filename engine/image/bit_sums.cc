@@ -19,21 +19,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = BitSums::Plane;
 
-// Carries into one column: two from columns before, one for each eight rows of the third
-// before, and what is left over of the last.
+// What earlier columns carry into one column. The column before gives at most five (its
+// twos, and one for each pair and for the odd one of up to seven rows left over), the second
+// before one (its fours), the third before one for each eight of its rows.
 class Carries {
   public:
-    HWY_INLINE std::uint64_t* add() { return words_[count_++].data(); }
+    // A column adds n <= kMaxRows + 6 + n / 8 rows, so n / 8 + 6 <= kMaxRows / 7 + 7.
+    static constexpr std::size_t kMost = kMaxRows / 7 + 7;
+
+    HWY_INLINE std::uint64_t* add() {
+        assert(count_ < kMost);
+        return words_[count_++].data();
+    }
     HWY_INLINE const std::uint64_t* get(std::size_t i) const { return words_[i].data(); }
     HWY_INLINE std::size_t count() const { return count_; }
     HWY_INLINE void clear() { count_ = 0; }
 
   private:
-    static constexpr std::size_t kMost = kMaxRows / 4;
     std::size_t count_ = 0;
     alignas(64) std::array<Words, kMost> words_;
 };
 
+// Makes `sum` the ones of three bits at each place, and returns their twos.
 template <class V>
 HWY_INLINE V FullAdd(V& sum, V a, V b) {
     const V differ = hn::Xor(a, b);
@@ -42,7 +49,8 @@ HWY_INLINE V FullAdd(V& sum, V a, V b) {
     return carry;
 }
 
-// Eight rows join the sums; what is too much goes to `eights` (Harley and Seal's counter).
+// Eight rows join the sums; what is too much goes to `eights` (Harley and Seal's counter):
+// one carry three columns on, where pairs would leave four in the next column.
 HWY_INLINE void AddEight(const std::uint64_t* const* rows,
                          std::size_t words,
                          std::uint64_t* HWY_RESTRICT ones,
@@ -69,6 +77,7 @@ HWY_INLINE void AddEight(const std::uint64_t* const* rows,
     }
 }
 
+// Two rows join the ones; what is too much goes to `twos`.
 HWY_INLINE void AddTwo(const std::uint64_t* a,
                        const std::uint64_t* b,
                        std::size_t words,
@@ -109,7 +118,7 @@ void AddRows(const BitSumPlan& plan,
              BitSums& sums) {
     const std::size_t words = std::size_t(blocks) * kBlockWords;
     Carries ring[4];  // a column's carries go one, two and three columns on
-    const std::uint64_t* in[kMaxRows + kMaxRows / 4];
+    const std::uint64_t* in[kMaxRows + Carries::kMost];
     for (int p = 0; p < plan.planes(); ++p) {
         Carries& here = ring[p % 4];
         Carries& next = ring[(p + 1) % 4];
@@ -141,7 +150,7 @@ void Unpack(const BitSums& sums, int planes, int block, std::uint16_t* out) {
         bit_of_lane[lane] = static_cast<std::uint16_t>(1U << lane);
     const std::size_t first_word = std::size_t(block) * kBlockWords;
     for (std::size_t slot = 0; slot < kBlockSlots; slot += lanes) {
-        // As many lanes divide 16 as there are: the slots are in one 16-bit piece.
+        // The number of lanes divides 16, so these slots are in one 16-bit piece.
         const auto bits = hn::LoadU(d, bit_of_lane + slot % 16);
         auto sum = hn::Zero(d);
         for (int p = 0; p < planes; ++p) {
@@ -190,6 +199,7 @@ void add_rows(const BitSumPlan& plan,
               int first_planes,
               BitSums& sums) {
     assert(blocks >= 1 && blocks <= kBlocksAtOnce);
+    assert(first_planes <= plan.planes());
     HWY_DYNAMIC_DISPATCH(AddRows)
     (plan, rows.data(), offset, blocks, first_planes, sums);
 }
@@ -219,6 +229,7 @@ void add_rows_scalar(const BitSumPlan& plan,
 
 // From the lowest place up: a one in the bound must be met by a one, or outdone above.
 BlockBits at_least(const BitSums& sums, int planes_used, int block, std::uint32_t bound) {
+    assert(block >= 0 && block < kBlocksAtOnce);
     BlockBits result{};
     if (bound >> planes_used != 0) return result;  // beyond what the planes can say
     result.fill(~std::uint64_t{0});
@@ -235,7 +246,7 @@ BlockBits at_least(const BitSums& sums, int planes_used, int block, std::uint32_
 
 namespace {
 
-// Each bit of a byte, four times.
+// Each bit of a byte, four times over.
 constexpr std::array<std::uint32_t, 256> kFourfold = [] {
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
@@ -254,6 +265,7 @@ void spread(const BitSums& groups,
             int quarter,
             int to,
             BitSums& out) {
+    assert(quarter >= 0 && quarter < 4);
     const std::size_t source = std::size_t(from) * kBlockWords + std::size_t(quarter);
     for (int p = 0; p < planes_used; ++p) {
         const std::uint64_t word = groups.planes[p][source];

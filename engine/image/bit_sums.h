@@ -1,16 +1,15 @@
 // Weighted sums of bits for the 256 pictures of a block at once: the loop over lists of
 // Figure 4.2, turned on its side.
-//   segment_layout.h -> [bit_sums.h] -> segment_search.h
+//   [bit_sums.h] -> segment_layout.h -> segment_search.h
 //
-// A list that many pictures share is a row of bits, one per picture. The sum of the weights
-// of those rows that have a picture's bit is kept as planes of bits too: plane p holds bit p
-// of all 256 sums. Each place of the weights is a column of rows to be added; full adders
-// take three rows of a column to one there and one in the next (Wallace, 1964).
+// A list is a row of bits, one per picture. What a picture's rows weigh together is kept as
+// planes of bits too, and full adders add three whole rows at a time (Wallace, 1964).
 //
-// Shape    a row is kBlockWords words; slot s of the block is bit s % 64 of word s / 64.
-// Errors   none; a wrong shape is a caller's bug and asserts.
-// Threads  const-thread-safe.
-// Source   sec. 4.3.1, Figure 4.2; C. S. Wallace, A suggestion for a fast multiplier, 1964.
+// Shape   a row is kBlockWords words for each block; slot s of a block is bit s % 64 of its
+//         word s / 64. Plane p holds bit p of every sum.
+// Errors  none; a wrong shape is a caller's bug and asserts.
+// Threads const-thread-safe; the vector code is chosen once for the machine.
+// Source  sec. 4.3.1, Figure 4.2; C. S. Wallace, A suggestion for a fast multiplier, 1964.
 #pragma once
 
 #include <array>
@@ -24,12 +23,13 @@ inline constexpr int kBlockSlots = 256;
 inline constexpr int kBlockWords = kBlockSlots / 64;
 // Sums stay below 2^kMaxPlanes.
 inline constexpr int kMaxPlanes = 16;
-// Rows of one sum.
+// The most rows that one sum has.
 inline constexpr int kMaxRows = 512;
 
 using BlockBits = std::array<std::uint64_t, kBlockWords>;
 
-// Which rows have a one at which place of their weight.
+// Which rows have a one at which place of their weight: made once for a query and a segment,
+// used for every block.
 class BitSumPlan {
   public:
     BitSumPlan() = default;
@@ -38,7 +38,7 @@ class BitSumPlan {
     BitSumPlan(std::span<const std::uint32_t> weights, std::uint32_t most_before);
 
     [[nodiscard]] int planes() const { return planes_; }
-    // The rows whose weight has bit `plane`.
+    // The rows whose weight has bit `plane`, rising. Requires: 0 <= plane < planes().
     [[nodiscard]] std::span<const std::uint16_t> column(int plane) const {
         return std::span(rows_).subspan(begin_[plane], begin_[plane + 1] - begin_[plane]);
     }
@@ -50,7 +50,7 @@ class BitSumPlan {
 };
 
 // Neighbouring blocks that are summed at once, at most: what a row has of them is four cache
-// lines, and all sums and carries stay near the processor.
+// lines that follow each other, as the processor fetches them best.
 inline constexpr int kBlocksAtOnce = 8;
 
 // The sums of neighbouring blocks: bit s of plane p is bit p of the sum of slot s, the slots
@@ -59,6 +59,8 @@ struct BitSums {
     using Plane = std::array<std::uint64_t, kBlocksAtOnce * kBlockWords>;
     alignas(64) std::array<Plane, kMaxPlanes> planes;
 
+    // One sum, read off the planes [0, planes_used).
+    // Requires: 0 <= slot < kBlocksAtOnce * kBlockSlots, planes_used <= kMaxPlanes.
     [[nodiscard]] std::uint32_t at(int slot, int planes_used) const {
         std::uint32_t sum = 0;
         for (int p = 0; p < planes_used; ++p) {
@@ -69,10 +71,13 @@ struct BitSums {
     }
 };
 
-// Sums planes [0, plan.planes()) of `blocks` neighbouring blocks whose row r begins at
-// rows[r] + offset. `sums` holds what the rows are added to, in planes [0, first_planes).
-// Requires: 1 <= blocks <= kBlocksAtOnce. Cost: about six vector operations for each one-bit
-// of the weights and each block.
+// Adds to the sums of `blocks` neighbouring blocks the weights of their rows, of which row r
+// begins at rows[r] + offset. `sums` comes with what is added to, in planes
+// [0, first_planes), and has planes [0, plan.planes()) afterwards; nothing else of it is
+// read or changed.
+// Requires: one row for each weight of the plan; 1 <= blocks <= kBlocksAtOnce; first_planes
+// <= plan.planes(); no sum above the plan's most_before. Cost: about six vector operations
+// for each one-bit of the weights and each block.
 void add_rows(const BitSumPlan& plan,
               std::span<const std::uint64_t* const> rows,
               std::size_t offset,
@@ -80,7 +85,7 @@ void add_rows(const BitSumPlan& plan,
               int first_planes,
               BitSums& sums);
 
-// The same, word by word: what the vector code is compared with.
+// The same, word by word: the scalar twin of the vector code, identical in every bit.
 void add_rows_scalar(const BitSumPlan& plan,
                      std::span<const std::uint64_t* const> rows,
                      std::size_t offset,
@@ -88,14 +93,16 @@ void add_rows_scalar(const BitSumPlan& plan,
                      int first_planes,
                      BitSums& sums);
 
-// Which sums of a block are at least `bound`.
+// Which sums of a block are at least `bound`; none where the planes cannot say as much.
+// Requires: 0 <= block < kBlocksAtOnce.
 [[nodiscard]] BlockBits at_least(const BitSums& sums,
                                  int planes_used,
                                  int block,
                                  std::uint32_t bound);
 
-// Gives each bit of quarter `quarter` of block `from` to four neighbouring slots: the sums of
-// 64 groups of four become those of the 256 slots of block `to`.
+// Gives each sum of four slots' group to those four: what stands in slots
+// [64 * quarter, 64 * quarter + 64) of block `from` of `groups` goes to all 256 slots of
+// block `to` of `out`, planes [0, planes_used). Requires: 0 <= quarter < 4.
 void spread(const BitSums& groups,
             int planes_used,
             int from,
@@ -103,8 +110,8 @@ void spread(const BitSums& groups,
             int to,
             BitSums& out);
 
-// All sums of a block, slot after slot: what at() gives for each.
 using UnpackedSums = std::array<std::uint16_t, kBlockSlots>;
+// All sums of a block, slot after slot: what at() gives for each.
 void unpack(const BitSums& sums, int planes_used, int block, UnpackedSums& out);
 
 }  // namespace haarmony::image

@@ -60,5 +60,26 @@ TEST(TopK, AHugeLimitCostsNothingBeforehand) {
     EXPECT_EQ(top.take(), (std::vector<Match>{{ImageId{2}, 1}}));
 }
 
+TEST(TopK, IsFullOfAsManyAsAreWantedAndKnowsTheWorstOfThem) {
+    std::mt19937 random(92);
+    for (const std::size_t limit : {1U, 2U, 7U, 40U}) {
+        TopK top(static_cast<int>(limit));
+        std::vector<Match> offered;
+        EXPECT_FALSE(top.full());
+        for (int i = 0; i < 60; ++i) {
+            offered.push_back({ImageId{i + 1}, static_cast<Score>(random() % 50) - 25});
+            top.offer(offered.back());
+            ASSERT_EQ(top.full(), offered.size() >= limit) << i;
+            if (!top.full()) continue;
+            const Score worst = sorted(offered)[limit - 1].score;
+            ASSERT_EQ(top.worst(), worst) << i;
+            ASSERT_TRUE(top.admits(worst)) << i;
+            ASSERT_FALSE(top.admits(worst + 1)) << i;
+        }
+    }
+}
+
+TEST(TopK, OfLimit0IsFull) { EXPECT_TRUE(TopK(0).full()); }
+
 }  // namespace
 }  // namespace haarmony::image
