@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/image/segment.h"
 #include "tests/engine/image/random_signatures.h"
 
 namespace haarmony::image {
@@ -42,6 +43,10 @@ class Twin {
             const SearchResult found = index_.snapshot()->search(query, scope);
             ASSERT_EQ(found.matches, expected.matches);
             ASSERT_EQ(found.searched, expected.searched);
+            SearchScope exhaustive = scope;
+            exhaustive.exhaustive = true;
+            ASSERT_EQ(index_.snapshot()->search(query, exhaustive).matches,
+                      expected.matches);
 
             std::vector<Match> all = index_.snapshot()->score_all(query, scope.only);
             ASSERT_EQ(std::int64_t(all.size()), expected.searched);
@@ -194,7 +199,7 @@ TEST(Index, SealsTheTailWhenItIsFull) {
 
 TEST(Index, AHugeLoadIsSealedAtOnceInFullSegments) {
     Index index({.index_m = 1, .tail_capacity = 10});
-    constexpr int kCount = 65536 + 100;
+    constexpr int kCount = kMaxSegmentSlots + 100;
     index.apply(records_of(kCount), {});
     const IndexStats stats = index.snapshot()->stats();
     EXPECT_EQ(stats.images, kCount);
@@ -239,24 +244,20 @@ TEST(Index, OfRemovedPicturesMergesToNothing) {
     EXPECT_EQ(search_all(index).searched, 0);
 }
 
-TEST(Index, BytesGrowByThePostingsOfAPicture) {
+TEST(Index, BytesAreThoseOfItsSegmentsAndItsTail) {
     Index index({.index_m = 60, .tail_capacity = 1});
     std::mt19937 random(161);
     std::vector<Record> records;
-    for (int id = 1; id <= 2000; ++id) {
+    std::vector<const Record*> pointers;
+    for (int id = 1; id <= 2000; ++id)
         records.push_back({ImageId{id}, random_signature(random, {.max_index = 4000})});
-    }
-    std::int64_t postings = 0;
-    for (const Record& record : records) {
-        for (const ChannelSignature& channel : record.signature.channels) {
-            postings += std::int64_t(channel.largest(60).size());
-        }
-    }
-    const std::int64_t empty = index.snapshot()->stats().bytes;
+    for (const Record& record : records) pointers.push_back(&record);
+    const IndexStats empty = index.snapshot()->stats();
     index.apply(records, {});
-    const std::int64_t lists = 4 * (std::int64_t{kKeyCount} + 1);
-    EXPECT_EQ(index.snapshot()->stats().bytes - empty,
-              lists + 3 * postings + 2000 * (8 + 4 * 4));
+    const IndexStats stats = index.snapshot()->stats();
+    const SegmentBytes bytes = Segment::from_records(pointers, 60)->bytes();
+    EXPECT_EQ(stats.bytes - empty.bytes, std::int64_t(bytes.total));
+    EXPECT_EQ(stats.rank_bytes, std::int64_t(bytes.total - bytes.without_ranks));
 }
 
 }  // namespace
