@@ -1,4 +1,5 @@
 // haarmony-ingest: see `--help`.
+#include <malloc.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -42,6 +43,14 @@ void install_signal_handlers() {
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
+// The pixels of one picture go where those of the last one were: given back to the system
+// and asked for again, page by page, they would cost a tenth of all the time.
+void keep_freed_memory() {
+    constexpr int kLargestKept = 32 << 20;  // the most that glibc allows
+    ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
+    ::mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
+}
+
 int terminal_columns() {
     constexpr int kUsual = 80;
     winsize size{};
@@ -75,6 +84,7 @@ int main(int argc, char** argv) {
         return kAllWell;
     }
     install_signal_handlers();
+    keep_freed_memory();
 
     auto catalogue = ingest::StoredCatalogue::open(line->database);
     if (!catalogue) {

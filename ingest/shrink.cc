@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/image/area_kernel.h"
+#include "engine/image/area_mean.h"
+
 namespace haarmony::ingest {
 namespace {
 
@@ -86,12 +89,28 @@ void average_columns(const std::vector<float>& sums,
     }
 }
 
+// The common case, in exact integers.
+Raster shrink_exactly(const ImageView& picture, int width, int height) {
+    Raster small(width, height, picture.channels);
+    image::AreaSums sums(picture, width, height);
+    const float scale =
+        1.0f / (static_cast<float>(picture.width) * static_cast<float>(picture.height));
+    for (int y = 0; y < height; ++y) {
+        image::scale_to_bytes(sums.row(y), scale, {small.row(y), small.row_bytes()});
+    }
+    return small;
+}
+
 }  // namespace
 
 Raster shrink(const ImageView& picture, int width, int height) {
     assert(width >= 1 && width <= picture.width && height >= 1 &&
            height <= picture.height);
     assert(picture.channels == 1 || picture.channels == 3 || picture.channels == 4);
+    if (picture.channels != 4 && std::max(width, height) <= image::kMaxAreaCells &&
+        image::AreaSums::fits(picture)) {
+        return shrink_exactly(picture, width, height);
+    }
     Raster small(width, height, picture.channels == 1 ? 1 : 3);
     const std::vector<Cover> columns = covers(picture.width, width);
     const std::vector<Cover> rows = covers(picture.height, height);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/image/haar_kernel.h"
+
 namespace haarmony::image {
 namespace {
 
@@ -36,55 +38,6 @@ ScaleTable make_scale_table() {
 const ScaleTable& scale_table() {
     static const ScaleTable table = make_scale_table();
     return table;
-}
-
-void decompose_row(float* row, int side) {
-    std::array<float, kMaxSide> values;
-    std::array<float, kMaxSide / 2> means;
-    std::copy_n(row, side, values.begin());
-    for (int half = side / 2; half > 0; half /= 2) {
-        for (int i = 0; i < half; ++i) {
-            means[i] = (values[2 * i] + values[2 * i + 1]) * 0.5F;
-            row[half + i] = (values[2 * i] - values[2 * i + 1]) * 0.5F;
-        }
-        std::copy_n(means.begin(), half, values.begin());
-    }
-    row[0] = values[0];
-}
-
-// kWidth neighbouring columns together, row by row: reads and writes run along the rows,
-// and a strip of 16 columns (8 KiB) stays in the first-level cache.
-template <int kWidth>
-void decompose_columns(float* plane, int side, int column) {
-    const ScaleTable& scales = scale_table();
-    std::array<std::array<float, kWidth>, kMaxSide> values;
-    for (int i = 0; i < side; ++i) {
-        std::copy_n(plane + std::ptrdiff_t{i} * side + column, kWidth, values[i].begin());
-    }
-    for (int half = side / 2; half > 0; half /= 2) {
-        const float* const scale = scales[level(half)].data() + column;
-        for (int i = 0; i < half; ++i) {
-            float* const out = plane + std::ptrdiff_t{half + i} * side + column;
-            for (int c = 0; c < kWidth; ++c) {
-                const float a = values[2 * i][c];
-                const float b = values[2 * i + 1][c];
-                out[c] = (a - b) * 0.5F * scale[c];
-                values[i][c] = (a + b) * 0.5F;
-            }
-        }
-    }
-    const float* const scale = scales[0].data() + column;
-    for (int c = 0; c < kWidth; ++c) plane[column + c] = values[0][c] * scale[c];
-}
-
-void decompose_standard(float* plane, int side) {
-    for (int i = 0; i < side; ++i) decompose_row(plane + std::ptrdiff_t{i} * side, side);
-    constexpr int kStrip = 16;
-    if (side >= kStrip) {
-        for (int j = 0; j < side; j += kStrip) decompose_columns<kStrip>(plane, side, j);
-    } else {
-        for (int j = 0; j < side; ++j) decompose_columns<1>(plane, side, j);
-    }
 }
 
 // One row step and one column step are one step of 2 x 2 blocks
@@ -125,7 +78,8 @@ void decompose(std::span<float> plane, int side, Decomposition decomposition) {
     assert(side >= 1 && side <= kMaxSide && std::has_single_bit(unsigned(side)));
     assert(plane.size() == std::size_t(side) * side);
     if (decomposition == Decomposition::kStandard) {
-        decompose_standard(plane.data(), side);
+        decompose_rows(plane, side);
+        decompose_columns(plane, side, scale_table().front().data());
     } else {
         decompose_nonstandard(plane.data(), side);
     }

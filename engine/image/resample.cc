@@ -1,41 +1,20 @@
 #include "engine/image/resample.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "engine/image/area_kernel.h"
+#include "engine/image/area_mean.h"
 #include "engine/image/mask.h"
 
 namespace haarmony::image {
 namespace {
 
-// Lengths are counted in 1/128 of a pixel, so that both the borders of the pixels
-// (multiples of kSide) and of the cells (multiples of the picture's length) are integers.
-constexpr std::uint32_t kPixelLength = kSide;
-
-// The pixels under one cell along one axis: [first, last], all but the ends in full.
-struct Overlap {
-    int first = 0;
-    int last = 0;
-    std::uint32_t first_weight = 0;
-    std::uint32_t last_weight = 0;  // 0 where first == last
-};
-
-Overlap overlap(int cell, int length) {
-    const int pixel = static_cast<int>(kPixelLength);
-    const int begin = cell * length;
-    const int end = begin + length;
-    Overlap result;
-    result.first = begin / pixel;
-    result.last = (end - 1) / pixel;
-    result.first_weight =
-        static_cast<std::uint32_t>(std::min(end, (result.first + 1) * pixel) - begin);
-    if (result.last > result.first) {
-        result.last_weight = static_cast<std::uint32_t>(end - result.last * pixel);
-    }
-    return result;
-}
+constexpr std::uint32_t kPixelLength = kSide;  // in the parts of area_kernel.h
 
 // Adds weight * row to the running sums of a band. With alpha: premultiplied colours and
 // alpha itself. A band's weights add up to the picture's height, so a sum is at most
@@ -94,12 +73,12 @@ void sum_cells(const std::uint32_t* sums,
 template <int kSamples>
 std::vector<std::int64_t> sum_all_cells(const ImageView& picture) {
     std::array<Overlap, kSide> columns;
-    for (int i = 0; i < kSide; ++i) columns[i] = overlap(i, picture.width);
+    for (int i = 0; i < kSide; ++i) columns[i] = overlap(i, kSide, picture.width);
 
     std::vector<std::int64_t> cells(std::size_t{kCoefficientCount} * kSamples);
     std::vector<std::uint32_t> sums(std::size_t(picture.width) * kSamples);
     for (int band = 0; band < kSide; ++band) {
-        const Overlap rows = overlap(band, picture.height);
+        const Overlap rows = overlap(band, kSide, picture.height);
         std::fill(sums.begin(), sums.end(), 0U);
         for (int y = rows.first; y <= rows.last; ++y) {
             const std::uint32_t weight = y == rows.first  ? rows.first_weight
@@ -113,28 +92,48 @@ std::vector<std::int64_t> sum_all_cells(const ImageView& picture) {
     return cells;
 }
 
+std::span<float> row_of(Plane& plane, int row) {
+    return std::span(plane).subspan(std::size_t(row) * kSide, kSide);
+}
+
 // The area of a cell times the largest sample.
 double full_scale(const ImageView& picture) {
     return 255.0 * picture.width * picture.height;
 }
 
-void fill_from_grey(const ImageView& picture, ColorPlanes& rgb) {
-    const std::vector<std::int64_t> cells = sum_all_cells<1>(picture);
+// Pictures whose sums do not fit AreaSums.
+template <int kSamples>
+void fill_from_large(const ImageView& picture, ColorPlanes& rgb) {
+    const std::vector<std::int64_t> cells = sum_all_cells<kSamples>(picture);
     const double scale = full_scale(picture);
     for (int i = 0; i < kCoefficientCount; ++i) {
-        rgb[0][i] = static_cast<float>(static_cast<double>(cells[i]) / scale);
+        for (int c = 0; c < kSamples; ++c) {
+            rgb[c][i] = static_cast<float>(
+                static_cast<double>(cells[std::size_t(i) * kSamples + c]) / scale);
+        }
+    }
+}
+
+void fill_from_grey(const ImageView& picture, ColorPlanes& rgb) {
+    if (AreaSums::fits(picture)) {
+        AreaSums sums(picture, kSide, kSide);
+        for (int i = 0; i < kSide; ++i) {
+            divide(sums.row(i), full_scale(picture), row_of(rgb[0], i));
+        }
+    } else {
+        fill_from_large<1>(picture, rgb);
     }
     rgb[1] = rgb[0];
     rgb[2] = rgb[0];
 }
 
 void fill_from_rgb(const ImageView& picture, ColorPlanes& rgb) {
-    const std::vector<std::int64_t> cells = sum_all_cells<3>(picture);
-    const double scale = full_scale(picture);
-    for (int i = 0; i < kCoefficientCount; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            rgb[c][i] = static_cast<float>(static_cast<double>(cells[3 * i + c]) / scale);
-        }
+    if (!AreaSums::fits(picture)) return fill_from_large<3>(picture, rgb);
+    AreaSums sums(picture, kSide, kSide);
+    std::array<float, std::size_t{3} * kSide> cells;
+    for (int i = 0; i < kSide; ++i) {
+        divide(sums.row(i), full_scale(picture), cells);
+        take_apart(cells, row_of(rgb[0], i), row_of(rgb[1], i), row_of(rgb[2], i));
     }
 }
 

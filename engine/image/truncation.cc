@@ -1,11 +1,14 @@
 #include "engine/image/truncation.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
+
+#include "engine/image/haar_kernel.h"
 
 namespace haarmony::image {
 namespace {
@@ -26,10 +29,11 @@ int index_of(std::uint64_t key) {
 }
 
 // Collects candidates above a running threshold, and raises it to the kMaxCoefficients-th
-// best whenever the buffer is full. Coarse coefficients come first and are the large ones,
-// so that few of the 16,383 are ever collected.
+// best whenever the buffer is full.
 class Largest {
   public:
+    explicit Largest(float threshold) : threshold_(threshold) {}
+
     [[nodiscard]] float threshold() const { return threshold_; }
 
     void add(float value, int index) {
@@ -55,25 +59,40 @@ class Largest {
 
     std::array<std::uint64_t, kCapacity> keys_;
     int count_ = 0;
-    float threshold_ = 0.0F;
+    float threshold_;
 };
+
+// Just below the kMaxCoefficients-th largest magnitude of the coarse coefficients, which is
+// never above that of all: what does not exceed it is not among the largest. Of photographs it
+// leaves a few hundred of the 16,383. Zero where there are not so many.
+float coarse_threshold(const Plane& coefficients) {
+    constexpr int kCoarse = 24;
+    std::array<std::uint32_t, kCoarse * kCoarse> magnitudes;
+    for (int i = 0; i < kCoarse; ++i) {
+        for (int j = 0; j < kCoarse; ++j) {
+            magnitudes[i * kCoarse + j] = magnitude(coefficients[i * kSide + j]);
+        }
+    }
+    magnitudes[0] = 0;  // the mean is no candidate
+    const auto last = magnitudes.begin() + (kMaxCoefficients - 1);
+    std::nth_element(magnitudes.begin(), last, magnitudes.end(), std::greater<>());
+    return *last == 0 ? 0.0F : std::bit_cast<float>(*last - 1);
+}
 
 }  // namespace
 
 ChannelSignature truncate(const Plane& coefficients) {
-    constexpr int kBlock = 16;
-    Largest largest;
-    for (int begin = 0; begin < kCoefficientCount; begin += kBlock) {
+    Largest largest(coarse_threshold(coefficients));
+    std::array<std::uint8_t, kSide> places;
+    for (int row = 0; row < kSide; ++row) {
+        const auto values =
+            std::span(coefficients).subspan(std::size_t(row) * kSide, kSide);
         // An equal magnitude later on has the larger index and loses: strictly above.
-        const float threshold = largest.threshold();
-        int above = 0;
-        for (int i = begin; i < begin + kBlock; ++i) {
-            above |= static_cast<int>(std::fabs(coefficients[i]) > threshold);
-        }
-        if (above == 0) continue;
-        for (int i = std::max(begin, 1); i < begin + kBlock; ++i) {
-            if (std::fabs(coefficients[i]) > largest.threshold()) {
-                largest.add(coefficients[i], i);
+        const int count = places_above(values, largest.threshold(), places.data());
+        for (const std::uint8_t place : std::span(places).first(std::size_t(count))) {
+            const int index = row * kSide + place;
+            if (index > 0 && std::fabs(values[place]) > largest.threshold()) {
+                largest.add(values[place], index);
             }
         }
     }
@@ -93,12 +112,14 @@ double wavelet_energy(const Plane& coefficients) {
     // Fixed partial sums, so that the result does not depend on the vector unit.
     constexpr int kLanes = 8;
     double energy = 0.0;
+    std::array<float, kSide> values;
     for (int row = 0; row < kSide; ++row) {
+        std::copy_n(coefficients.begin() + row * kSide, kSide, values.begin());
+        if (row == 0) values[0] = 0.0F;
         std::array<float, kLanes> lanes{};
-        for (int begin = row * kSide; begin < (row + 1) * kSide; begin += kLanes) {
+        for (int begin = 0; begin < kSide; begin += kLanes) {
             for (int lane = 0; lane < kLanes; ++lane) {
-                const int i = begin + lane;
-                const float value = i == 0 ? 0.0F : coefficients[i];
+                const float value = values[begin + lane];
                 lanes[lane] += value * value;
             }
         }

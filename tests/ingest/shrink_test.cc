@@ -62,7 +62,8 @@ TEST(Shrink, IsTheIntegralOverWhatAPixelCovers) {
                              Case{5, 3, 5, 3},
                              Case{9, 1, 4, 1},
                              Case{1, 9, 1, 1},
-                             Case{100, 40, 1, 1}}) {
+                             Case{100, 40, 1, 1},
+                             Case{400, 5, 300, 3}}) {
         for (const int channels : {1, 3, 4}) {
             const Raster picture = noise(size.from_width, size.from_height, channels);
             const Raster small = shrink(view_of(picture), size.to_width, size.to_height);

@@ -4,6 +4,7 @@
 
 #include <hwy/targets.h>
 
+#include <cstdint>
 #include <functional>
 
 namespace haarmony::image {

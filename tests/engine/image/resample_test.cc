@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "engine/image/area_kernel.h"
 #include "engine/image/mask.h"
 #include "tests/engine/image/pictures.h"
 
@@ -259,6 +260,21 @@ TEST(AreaAverage, OfTheLargestPictureDoesNotOverflow) {
                           std::set<float>{1.0F});
             }
         }
+    }
+}
+
+// Pictures whose sums do not fit AreaSums are added up by other code.
+TEST(AreaAverage, OfARowRepeatedIsThatOfTheRowHoweverTall) {
+    constexpr int kHeight = 20000;
+    for (const int channels : {1, 3}) {
+        const Pixels row = noise(600, 1, channels, 18);
+        ImageView tall = row.view();
+        tall.height = kHeight;
+        tall.row_stride = 0;
+        ASSERT_FALSE(AreaSums::fits(tall));
+        const auto planes = std::make_unique<ColorPlanes>();
+        area_average(tall, *planes);
+        EXPECT_EQ(*planes, *average(row)) << channels << " channels";
     }
 }
 
