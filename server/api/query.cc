@@ -1,6 +1,8 @@
 #include "server/api/query.h"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -90,10 +92,15 @@ json query_json(const SearchAnswer& answer, const QueryOptions& options) {
     return query;
 }
 
-// The reply to one query as JSON, or the problem.
-Outcome<json> answer(const Context& context,
-                     Inputs& inputs,
-                     std::optional<QuerySource> source) {
+// What one query is told, and how long the indexes were asked for it.
+struct Answer {
+    json reply;
+    std::chrono::nanoseconds ranking{};
+};
+
+Outcome<Answer> answer(const Context& context,
+                       Inputs& inputs,
+                       std::optional<QuerySource> source) {
     const Clock::time_point start = Clock::now();
     const QueryOptions options = read_query_options(context, inputs);
     if (const auto problem = inputs.refused()) return *problem;
@@ -122,19 +129,31 @@ Outcome<json> answer(const Context& context,
                {"took_ms", std::chrono::duration<double, std::milli>(took).count()},
                {"query", query_json(found.value(), options)}};
     if (options.seq) reply["seq"] = *options.seq;
-    return reply;
+    return Answer{std::move(reply), found->found.ranking};
 }
 
-Reply respond(Outcome<json> reply) {
-    if (!reply) return reply.problem();
-    http::Response response = http::json_response(200, *reply);
+http::Response fresh(const json& reply) {
+    http::Response response = http::json_response(200, reply);
     response.headers["Cache-Control"] = "no-store";
+    return response;
+}
+
+Reply respond(Outcome<Answer> answer) {
+    if (!answer) return answer.problem();
+    http::Response response = fresh(answer->reply);
+    // W3C Server Timing; the rest of what the client waited for is the service around it.
+    std::array<char, 48> timing{};
+    std::snprintf(timing.data(),
+                  timing.size(),
+                  "search;dur=%.3f",
+                  std::chrono::duration<double, std::milli>(answer->ranking).count());
+    response.headers["Server-Timing"] = timing.data();
     return response;
 }
 
 constexpr std::size_t kMaxBatch = 100;
 
-Outcome<json> answer_object(const Context& context, json query) {
+Outcome<Answer> answer_object(const Context& context, json query) {
     auto inputs = Inputs::of_object(std::move(query));
     if (!inputs) return inputs.problem();
     return answer(context, *inputs, read_query_source(*inputs));
@@ -183,11 +202,11 @@ Reply post_query_batch(const Context& context, const http::Request& request) {
     for (json& query : *queries) {
         // Nobody waits for the rest any more.
         if (request.cancelled.stop_requested()) break;
-        Outcome<json> result = answer_object(context, std::move(query));
-        results.push_back(result ? *std::move(result)
+        Outcome<Answer> result = answer_object(context, std::move(query));
+        results.push_back(result ? std::move(result->reply)
                                  : http::problem_json(result.problem(), request));
     }
-    return respond(json{{"results", std::move(results)}});
+    return fresh(json{{"results", std::move(results)}});
 }
 
 Reply get_similar(const Context& context, const http::Request& request) {
