@@ -1,5 +1,7 @@
 // The reading half of ImageStore.
+#include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "schema/image_selection.h"
@@ -135,9 +137,7 @@ Result<std::vector<Image>> ImageStore::get_many(std::span<const ImageId> ids) {
     static const std::string sql = "SELECT wanted.key, " + columns() +
                                    " FROM json_each(?1) AS wanted"
                                    " CROSS JOIN images ON images.id = wanted.value" +
-                                   std::string(kWithTags) +
-                                   " WHERE state = 'indexed'"
-                                   " ORDER BY wanted.key, image_tags.tag";
+                                   std::string(kWithTags) + " WHERE state = 'indexed'";
     const auto failed = [&](Error error) {
         return while_doing("cannot read " + std::to_string(ids.size()) + " images",
                            std::move(error));
@@ -146,8 +146,26 @@ Result<std::vector<Image>> ImageStore::get_many(std::span<const ImageId> ids) {
     auto statement = statements_->cache.borrow(sql);
     if (!statement) return failed(std::move(statement).error());
     (*statement)->bind(1, wanted);
-    Result<std::vector<Image>> images = collect(**statement);
-    if (!images) return failed(std::move(images).error());
+    // The order is made here: SQLite would put every row into a sorter before it gave the
+    // first one, at nearly twice the time.
+    std::vector<std::optional<Image>> found(ids.size());
+    for (;;) {
+        Result<bool> row = (*statement)->step();
+        if (!row) return failed(std::move(row).error());
+        if (!*row) break;
+        std::optional<Image>& image =
+            found[static_cast<std::size_t>((*statement)->integer(kKey))];
+        if (!image) image = image_of(**statement);
+        if (!(*statement)->is_null(kTag))
+            image->tags.emplace_back((*statement)->text(kTag));
+    }
+    std::vector<Image> images;
+    images.reserve(ids.size());
+    for (std::optional<Image>& image : found) {
+        if (!image) continue;
+        std::ranges::sort(image->tags);
+        images.push_back(*std::move(image));
+    }
     return images;
 }
 

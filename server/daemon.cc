@@ -123,6 +123,7 @@ int run_daemon(const Config& config) {
     ImageServiceOptions service;
     service.database_path = config.database;
     service.index_m = config.index_m;
+    service.search_cores = std::max(1, config.threads);
     auto images = ImageService::open(service);
     if (!images) return leave(kExitCouldNotRun, images.error());
 

@@ -2,6 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/api/json_text.h"
+#include "server/http/json.h"
+
 namespace haarmony::server {
 namespace {
 
@@ -27,21 +30,16 @@ json metadata_of(const schema::Image& image) {
 
 json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
 
-// What a match and a row have in common.
-json described(const schema::Image& image) {
-    return {{"id", to_int(image.id)},
-            {"uri", text_or_null(image.uri)},
-            {"width", image.width},
-            {"height", image.height},
-            {"thumbnail", image_address(image.id, "thumbnail")},
-            {"tags", image.tags},
-            {"metadata", metadata_of(image)}};
-}
-
 }  // namespace
 
 json image_json(const schema::Image& image) {
-    json members = described(image);
+    json members{{"id", to_int(image.id)},
+                 {"uri", text_or_null(image.uri)},
+                 {"width", image.width},
+                 {"height", image.height},
+                 {"thumbnail", image_address(image.id, "thumbnail")},
+                 {"tags", image.tags},
+                 {"metadata", metadata_of(image)}};
     members["state"] = name_of(image.state);
     members["origin"] = image.origin == schema::ImageOrigin::kFile ? "file" : "upload";
     members["media_type"] = text_or_null(image.media_type);
@@ -57,20 +55,35 @@ json image_json(const schema::Image& image) {
     return members;
 }
 
-json match_json(const FoundImage& found,
-                const PlannedWay& way,
-                const image::Profile& profile,
-                int rank) {
-    json members = described(found.image);
-    members["rank"] = rank;
-    members["distance"] = found.match.distance;
-    members["similarity"] = found.match.similarity;
-    members["orientation"] = image::symmetry_name(way.symmetry);
-    if (found.match.combined_rank) members["combined_rank"] = *found.match.combined_rank;
+void append_match(const FoundImage& found,
+                  const PlannedWay& way,
+                  const image::Profile& profile,
+                  int rank,
+                  std::string_view explanation,
+                  std::string& reply) {
+    const schema::Image& image = found.image;
+    JsonObject match(reply);
+    match.integer("id", to_int(image.id))
+        .integer("rank", rank)
+        .number("distance", found.match.distance)
+        .number("similarity", found.match.similarity)
+        .text("orientation", image::symmetry_name(way.symmetry));
+    if (found.match.combined_rank)
+        match.number("combined_rank", *found.match.combined_rank);
     if (profile.calibration)
-        members["probability"] =
-            image::probability(*profile.calibration, found.match.distance);
-    return members;
+        match.number("probability",
+                     image::probability(*profile.calibration, found.match.distance));
+    match.text_or_null("uri", image.uri)
+        .integer("width", image.width)
+        .integer("height", image.height)
+        .text("thumbnail", image_address(image.id, "thumbnail"))
+        .texts("tags", image.tags)
+        // Most have none, and need not be read for it.
+        .json(
+            "metadata",
+            image.metadata == "{}" ? image.metadata : http::to_text(metadata_of(image)));
+    if (!explanation.empty()) match.json("explain", explanation);
+    match.end();
 }
 
 std::string image_address(ImageId id) { return "/images/" + std::to_string(to_int(id)); }

@@ -1,6 +1,8 @@
 #include "server/api/query.h"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include "server/api/image_id.h"
 #include "server/api/image_json.h"
 #include "server/api/inputs.h"
+#include "server/api/json_text.h"
 #include "server/api/query_options.h"
 #include "server/api/query_source.h"
 #include "server/api/url_source.h"
@@ -52,25 +55,38 @@ Outcome<QueryPicture> picture_of(const Context& context,
     return look_at(view, view.width, view.height, look);
 }
 
-// Adds to the matches why they are as near as they are.
-std::optional<http::Problem> add_explanations(const Context& context,
-                                              const SearchAnswer& answer,
-                                              const image::Profile& profile,
-                                              json& matches) {
-    for (std::size_t i = 0; i < matches.size(); ++i) {
-        const FoundImage& found = answer.found.images[i];
+// Why a match is as near as it is, as JSON; empty if it is gone since it was found.
+Result<std::string> explanation_of(const Context& context,
+                                   ImageId id,
+                                   const PlannedWay& way,
+                                   const image::Profile& profile) {
+    const auto target = context.images.signature(id, way.variant);
+    if (!target && target.error().code == ErrorCode::kNotFound) return std::string();
+    if (!target) return target.error();
+    Result<json> explanation =
+        explanation_json(way.signature, target.value(), profile, way.query.m);
+    if (!explanation) return explanation.error();
+    (*explanation)["variant"] = way.variant;
+    return http::to_text(explanation.value());
+}
+
+// The list of matches as JSON, best first.
+Result<std::string> matches_text(const Context& context,
+                                 const SearchAnswer& answer,
+                                 const QueryOptions& options) {
+    const image::Profile& profile = options.search.plan.profiles.front();
+    std::string matches = "[";
+    int rank = 0;
+    for (const FoundImage& found : answer.found.images) {
         const PlannedWay& way = answer.plan.ways()[found.match.way];
-        const auto target = context.images.signature(found.image.id, way.variant);
-        // Gone since it was found: nothing is left to explain.
-        if (!target && target.error().code == ErrorCode::kNotFound) continue;
-        if (!target) return http::problem_of(target.error());
-        Result<json> explanation =
-            explanation_json(way.signature, target.value(), profile, way.query.m);
-        if (!explanation) return http::problem_of(explanation.error());
-        (*explanation)["variant"] = way.variant;
-        matches[i]["explain"] = std::move(explanation).value();
+        Result<std::string> explanation = std::string();
+        if (options.explain)
+            explanation = explanation_of(context, found.image.id, way, profile);
+        if (!explanation) return explanation;
+        if (rank > 0) matches += ',';
+        append_match(found, way, profile, ++rank, explanation.value(), matches);
     }
-    return {};
+    return matches + ']';
 }
 
 json query_json(const SearchAnswer& answer, const QueryOptions& options) {
@@ -90,10 +106,15 @@ json query_json(const SearchAnswer& answer, const QueryOptions& options) {
     return query;
 }
 
-// The reply to one query as JSON, or the problem.
-Outcome<json> answer(const Context& context,
-                     Inputs& inputs,
-                     std::optional<QuerySource> source) {
+// What one query is told, and how long the indexes were asked for it.
+struct Answer {
+    std::string reply;  // JSON
+    std::chrono::nanoseconds ranking{};
+};
+
+Outcome<Answer> answer(const Context& context,
+                       Inputs& inputs,
+                       std::optional<QuerySource> source) {
     const Clock::time_point start = Clock::now();
     const QueryOptions options = read_query_options(context, inputs);
     if (const auto problem = inputs.refused()) return *problem;
@@ -105,36 +126,42 @@ Outcome<json> answer(const Context& context,
     const auto found = context.images.search(*picture, options.search);
     if (!found) return found.error();
 
-    json matches = json::array();
-    const image::Profile& profile = options.search.plan.profiles.front();
-    for (const FoundImage& image : found->found.images)
-        matches.push_back(match_json(image,
-                                     found->plan.ways()[image.match.way],
-                                     profile,
-                                     static_cast<int>(matches.size()) + 1));
-    if (options.explain)
-        if (const auto problem =
-                add_explanations(context, found.value(), profile, matches))
-            return *problem;
-    const Clock::duration took = Clock::now() - start;
-    json reply{{"matches", std::move(matches)},
-               {"searched", found->found.searched},
-               {"took_ms", std::chrono::duration<double, std::milli>(took).count()},
-               {"query", query_json(found.value(), options)}};
-    if (options.seq) reply["seq"] = *options.seq;
-    return reply;
+    const auto matches = matches_text(context, found.value(), options);
+    if (!matches) return matches.error();
+    const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+    std::string reply;
+    JsonObject members(reply);
+    members.json("matches", matches.value())
+        .integer("searched", found->found.searched)
+        .number("took_ms", took.count())
+        .json("query", http::to_text(query_json(found.value(), options)));
+    if (options.seq) members.json("seq", http::to_text(*options.seq));
+    members.end();
+    return Answer{std::move(reply), found->found.ranking};
 }
 
-Reply respond(Outcome<json> reply) {
-    if (!reply) return reply.problem();
-    http::Response response = http::json_response(200, *reply);
+http::Response fresh(std::string reply) {
+    http::Response response = http::json_text_response(200, std::move(reply));
     response.headers["Cache-Control"] = "no-store";
+    return response;
+}
+
+Reply respond(Outcome<Answer> answer) {
+    if (!answer) return answer.problem();
+    http::Response response = fresh(std::move(answer->reply));
+    // W3C Server Timing; the rest of what the client waited for is the service around it.
+    std::array<char, 48> timing{};
+    std::snprintf(timing.data(),
+                  timing.size(),
+                  "search;dur=%.3f",
+                  std::chrono::duration<double, std::milli>(answer->ranking).count());
+    response.headers["Server-Timing"] = timing.data();
     return response;
 }
 
 constexpr std::size_t kMaxBatch = 100;
 
-Outcome<json> answer_object(const Context& context, json query) {
+Outcome<Answer> answer_object(const Context& context, json query) {
     auto inputs = Inputs::of_object(std::move(query));
     if (!inputs) return inputs.problem();
     return answer(context, *inputs, read_query_source(*inputs));
@@ -179,15 +206,18 @@ Reply post_query_batch(const Context& context, const http::Request& request) {
                        "is not a list of 1 to " + std::to_string(kMaxBatch) + " queries");
     }
     if (const auto problem = inputs->refused()) return *problem;
-    json results = json::array();
+    std::string results = "[";
     for (json& query : *queries) {
         // Nobody waits for the rest any more.
         if (request.cancelled.stop_requested()) break;
-        Outcome<json> result = answer_object(context, std::move(query));
-        results.push_back(result ? *std::move(result)
-                                 : http::problem_json(result.problem(), request));
+        Outcome<Answer> result = answer_object(context, std::move(query));
+        if (results.size() > 1) results += ',';
+        results += result ? result->reply
+                          : http::to_text(http::problem_json(result.problem(), request));
     }
-    return respond(json{{"results", std::move(results)}});
+    std::string reply;
+    JsonObject(reply).json("results", results + ']').end();
+    return fresh(std::move(reply));
 }
 
 Reply get_similar(const Context& context, const http::Request& request) {

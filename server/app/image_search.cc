@@ -24,11 +24,15 @@ std::vector<FoundImage> join(const std::vector<Candidate>& candidates,
 Result<Found> search_images(const SearchPlan& plan,
                             int limit,
                             const image::IdSet* only,
+                            Executor* executor,
                             ReadConnections& connections) {
     // Each round asks for as many more as the last one lacked; the rounds end because the
     // snapshots do.
+    std::chrono::nanoseconds ranking{};
     for (int wanted = limit;;) {
-        const Candidates candidates = plan.best(wanted, only);
+        const auto start = std::chrono::steady_clock::now();
+        const Candidates candidates = plan.best(wanted, only, executor);
+        ranking += std::chrono::steady_clock::now() - start;
         std::vector<ImageId> ids;
         for (const Candidate& candidate : candidates.best) ids.push_back(candidate.id);
         auto connection = connections.lend();
@@ -38,7 +42,8 @@ Result<Found> search_images(const SearchPlan& plan,
         const int missing = static_cast<int>(ids.size() - rows->size());
         if (candidates.exhausted || static_cast<int>(rows->size()) >= limit)
             return Found{join(candidates.best, std::move(rows).value(), limit),
-                         candidates.searched};
+                         candidates.searched,
+                         ranking};
         wanted = limit + missing;
     }
 }

@@ -3,6 +3,7 @@
 // Threads const-safe; holds no lock while scoring.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -21,13 +22,16 @@ struct FoundImage {
 struct Found {
     std::vector<FoundImage> images;  // best first
     std::int64_t searched = 0;
+    std::chrono::nanoseconds ranking{};  // what the indexes took, without the database
 };
 
 // The `limit` best matches. A picture that was deleted after the snapshots were taken is left
-// out, and the next best takes its place. Requires: limit >= 1.
+// out, and the next best takes its place. `executor` as SearchPlan::best().
+// Requires: limit >= 1.
 [[nodiscard]] Result<Found> search_images(const SearchPlan& plan,
                                           int limit,
                                           const image::IdSet* only,
+                                          Executor* executor,
                                           ReadConnections& connections);
 
 }  // namespace haarmony::server

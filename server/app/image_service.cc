@@ -55,7 +55,8 @@ ImageService::ImageService(const ImageServiceOptions& options,
           return Connection::open(path, schema::Database::Mode::kReadOnly);
       }),
       follower_(std::move(follower)),
-      pictures_(options.decode) {}
+      pictures_(options.decode),
+      cores_(options.search_cores) {}
 
 template <typename Work>
 auto ImageService::write(Work&& work) {
@@ -124,8 +125,9 @@ Result<SearchAnswer> ImageService::search(const QueryPicture& picture,
         if (!ids) return ids.error();
         only.emplace(ids.value());
     }
-    Result<Found> found =
-        search_images(plan.value(), options.limit, only ? &*only : nullptr, readers_);
+    const IdleCores::Share cores(cores_);
+    Result<Found> found = search_images(
+        plan.value(), options.limit, only ? &*only : nullptr, cores.executor(), readers_);
     if (!found) return std::move(found).error();
     return SearchAnswer{std::move(plan).value(), std::move(found).value()};
 }

@@ -26,6 +26,7 @@
 #include "ingest/decode.h"
 #include "schema/image_store.h"
 #include "server/app/connection.h"
+#include "server/app/idle_cores.h"
 #include "server/app/image_search.h"
 #include "server/app/index_follower.h"
 #include "server/app/picture_reader.h"
@@ -38,6 +39,7 @@ struct ImageServiceOptions {
     int index_m = 60;
     std::chrono::milliseconds poll_interval{25};
     ingest::DecodeLimits decode;
+    int search_cores = 1;  // that searches may use, their own threads included
 };
 
 struct SearchOptions {
@@ -164,6 +166,7 @@ class ImageService {
     ReadConnections readers_;
     std::unique_ptr<IndexFollower> follower_;
     PictureReader pictures_;
+    IdleCores cores_;
 };
 
 }  // namespace haarmony::server

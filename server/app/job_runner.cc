@@ -1,6 +1,7 @@
 #include "server/app/job_runner.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,8 @@ namespace haarmony::server {
 namespace {
 
 using schema::JobState;
+
+constexpr int kNiceness = 10;  // as that of the listener's costly threads
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
@@ -49,7 +52,11 @@ Result<std::unique_ptr<JobRunner>> JobRunner::start(const JobRunnerOptions& opti
     if (*again > 0) spdlog::info("event=jobs_taken_up_again count={}", *again);
     std::unique_ptr<JobRunner> runner(new JobRunner(
         options, std::move(types), std::move(worker).value(), std::move(writer).value()));
-    runner->thread_ = std::thread([raw = runner.get()] { raw->work(); });
+    runner->thread_ = std::thread([raw = runner.get()] {
+        // Of this thread and of those that it starts: searches go before jobs.
+        ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + kNiceness);
+        raw->work();
+    });
     return runner;
 }
 

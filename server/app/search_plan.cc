@@ -101,9 +101,11 @@ Result<SearchPlan> SearchPlan::make(const QueryPicture& picture,
     return plan;
 }
 
-Candidates SearchPlan::best(int limit, const image::IdSet* only) const {
+Candidates SearchPlan::best(int limit,
+                            const image::IdSet* only,
+                            Executor* executor) const {
     assert(limit >= 1);
-    return combine_ ? best_of_ranks(limit, only) : best_of_one(limit, only);
+    return combine_ ? best_of_ranks(limit, only, executor) : best_of_one(limit, only);
 }
 
 std::vector<image::Way> SearchPlan::asked(const Metric& metric) const {
@@ -157,10 +159,15 @@ Candidates SearchPlan::best_of_one(int limit, const image::IdSet* only) const {
     }
 }
 
-Candidates SearchPlan::best_of_ranks(int limit, const image::IdSet* only) const {
-    std::vector<std::vector<image::BestMatch>> all;
-    for (const Metric& metric : metrics_)
-        all.push_back(image::score_all_best(asked(metric), only));
+Candidates SearchPlan::best_of_ranks(int limit,
+                                     const image::IdSet* only,
+                                     Executor* executor) const {
+    std::vector<std::vector<image::BestMatch>> all(metrics_.size());
+    InlineExecutor alone;
+    Executor& threads = executor != nullptr ? *executor : alone;
+    threads.parallel_for(metrics_.size(), [&](std::size_t i) {
+        all[i] = image::score_all_best(asked(metrics_[i]), only);
+    });
     Candidates candidates;
     candidates.searched = static_cast<std::int64_t>(all[0].size());
     const auto count = static_cast<double>(metrics_.size());

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/executor.h"
 #include "engine/core/result.h"
 #include "engine/image/best_of.h"
 #include "engine/image/combined_rank.h"
@@ -70,8 +71,11 @@ class SearchPlan {
                                                  const Snapshots& snapshots,
                                                  int index_m);
 
-    // The `limit` best that are similar enough, exactly. Requires: limit >= 1.
-    [[nodiscard]] Candidates best(int limit, const image::IdSet* only) const;
+    // The `limit` best that are similar enough, exactly; with an executor, sooner where it
+    // has threads to spare. Requires: limit >= 1.
+    [[nodiscard]] Candidates best(int limit,
+                                  const image::IdSet* only,
+                                  Executor* executor) const;
 
     // Of the first profile; Candidate::way counts them.
     [[nodiscard]] const std::vector<PlannedWay>& ways() const { return metrics_[0]; }
@@ -84,7 +88,9 @@ class SearchPlan {
     SearchPlan() = default;
     [[nodiscard]] std::vector<image::Way> asked(const Metric& metric) const;
     [[nodiscard]] Candidates best_of_one(int limit, const image::IdSet* only) const;
-    [[nodiscard]] Candidates best_of_ranks(int limit, const image::IdSet* only) const;
+    [[nodiscard]] Candidates best_of_ranks(int limit,
+                                           const image::IdSet* only,
+                                           Executor* executor) const;
     [[nodiscard]] Candidate candidate(const image::BestMatch& match) const;
     [[nodiscard]] bool similar_enough(const Candidate& candidate) const;
 

@@ -2,7 +2,7 @@
 
 #include <sys/socket.h>
 
-#include <algorithm>
+#include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -19,23 +19,25 @@ constexpr std::size_t kReadPiece = 64 * 1024;
 constexpr std::size_t kWritePiece = 256 * 1024;
 constexpr auto kTuple = net::as_tuple(net::use_awaitable);
 
+std::string remote_of(const net::ip::tcp::socket& socket) {
+    error_code error;
+    const auto endpoint = socket.remote_endpoint(error);
+    if (error) return "unknown";
+    return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
+}
+
 }  // namespace
 
 Connection::Connection(net::ip::tcp::socket socket)
-    : socket_(std::move(socket)), deadline_(socket_.get_executor()) {
+    : socket_(std::move(socket)),
+      remote_(remote_of(socket_)),
+      timer_(socket_.get_executor()) {
     error_code ignored;  // a socket that is broken already shows it at its first read
     socket_.set_option(net::ip::tcp::no_delay(true), ignored);
     socket_.non_blocking(true, ignored);
 }
 
 net::any_io_executor Connection::executor() { return socket_.get_executor(); }
-
-std::string Connection::remote() const {
-    error_code error;
-    const auto endpoint = socket_.remote_endpoint(error);
-    if (error) return "unknown";
-    return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
-}
 
 bool Connection::has_input() const {
     error_code error;
@@ -44,21 +46,36 @@ bool Connection::has_input() const {
 
 void Connection::start_deadline(Milliseconds deadline) {
     timed_out_ = false;
-    const std::uint64_t number = ++deadline_number_;
-    deadline_.expires_after(deadline);
-    // A handler that is queued already cannot be cancelled, hence the number.
-    deadline_.async_wait([self = shared_from_this(), number](error_code error) {
-        if (error || number != self->deadline_number_) return;
-        self->timed_out_ = true;
-        error_code ignored;
-        self->socket_.cancel(ignored);
-    });
+    deadline_ = Clock::now() + deadline;
+    if (!alarm_ || *alarm_ > deadline_) set_alarm();
 }
 
 void Connection::stop_deadline() {
     timed_out_ = false;
-    ++deadline_number_;
-    deadline_.cancel();
+    deadline_ = Clock::time_point::max();
+}
+
+// Each request has several deadlines, and nearly all of them are stopped in time. So the
+// timer runs on, and looks at the deadline of the day when it rings.
+void Connection::set_alarm() {
+    alarm_ = deadline_;
+    timer_.expires_at(deadline_);
+    // A handler that is queued already cannot be cancelled, hence the number.
+    timer_.async_wait(
+        [self = shared_from_this(), number = ++alarm_number_](error_code error) {
+            if (error || number != self->alarm_number_) return;
+            self->alarm_.reset();
+            self->ring();
+        });
+}
+
+void Connection::ring() {
+    if (deadline_ == Clock::time_point::max() || closed_) return;
+    if (deadline_ > Clock::now()) return set_alarm();
+    deadline_ = Clock::time_point::max();
+    timed_out_ = true;
+    error_code ignored;
+    socket_.cancel(ignored);
 }
 
 net::awaitable<Connection::Arrival> Connection::fill() {
@@ -73,12 +90,11 @@ net::awaitable<Connection::Arrival> Connection::fill() {
             reading_ = false;
         }
         if (closed_) co_return Arrival::kEnd;
-        const std::size_t old = received_.size();
-        received_.resize(old + kReadPiece);
+        // A string of that size would be filled with zeros first, for each request.
+        thread_local std::array<char, kReadPiece> piece;
         error_code error;
-        const std::size_t bytes =
-            socket_.read_some(net::buffer(received_.data() + old, kReadPiece), error);
-        received_.resize(old + bytes);
+        const std::size_t bytes = socket_.read_some(net::buffer(piece), error);
+        received_.append(piece.data(), bytes);
         if (bytes > 0) co_return Arrival::kBytes;
         if (timed_out_) co_return Arrival::kTimeout;
         if (draining_ || error != net::error::would_block) co_return Arrival::kEnd;
@@ -89,14 +105,21 @@ net::awaitable<bool> Connection::write(std::string_view bytes, Milliseconds dead
     while (!bytes.empty()) {
         std::string_view piece = bytes.substr(0, kWritePiece);
         bytes.remove_prefix(piece.size());
-        start_deadline(deadline);
+        bool waited = false;
         while (!piece.empty()) {
             if (timed_out_ || closed_) co_return false;
-            const auto [error, sent] = co_await socket_.async_write_some(
-                net::buffer(piece.data(), piece.size()), kTuple);
-            if (error) co_return false;
+            // Most answers fit into the system's buffer: nothing to wait for.
+            error_code error;
+            const std::size_t sent =
+                socket_.write_some(net::buffer(piece.data(), piece.size()), error);
             piece.remove_prefix(sent);
+            if (!error) continue;
+            if (error != net::error::would_block) co_return false;
+            if (!waited) start_deadline(deadline);
+            waited = true;
+            co_await socket_.async_wait(net::ip::tcp::socket::wait_write, kTuple);
         }
+        if (waited) stop_deadline();
     }
     co_return true;
 }
@@ -142,7 +165,7 @@ net::awaitable<void> Connection::linger(Milliseconds deadline) {
 
 void Connection::close() {
     closed_ = true;
-    stop_deadline();
+    timer_.cancel();
     error_code ignored;
     socket_.close(ignored);
 }

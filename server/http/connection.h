@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,7 +32,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     explicit Connection(boost::asio::ip::tcp::socket socket);
 
     [[nodiscard]] boost::asio::any_io_executor executor();
-    [[nodiscard]] std::string remote() const;  // "address:port"
+    [[nodiscard]] const std::string& remote() const { return remote_; }  // "address:port"
 
     // What has arrived; consume() takes it from the front.
     [[nodiscard]] std::string_view received() const { return received_; }
@@ -65,11 +66,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
     [[nodiscard]] bool closed() const { return closed_; }
 
   private:
+    using Clock = std::chrono::steady_clock;
+
     void start_deadline(Milliseconds deadline);
+    void set_alarm();
+    void ring();
 
     boost::asio::ip::tcp::socket socket_;
-    boost::asio::steady_timer deadline_;
-    std::uint64_t deadline_number_ = 0;
+    const std::string remote_;
+    Clock::time_point deadline_ = Clock::time_point::max();  // max: none
+    boost::asio::steady_timer timer_;
+    std::optional<Clock::time_point> alarm_;  // when timer_ rings: not after deadline_
+    std::uint64_t alarm_number_ = 0;
     std::uint64_t watch_number_ = 0;
     std::string received_;
     bool timed_out_ = false;

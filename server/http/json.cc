@@ -107,11 +107,19 @@ Result<json> parse_json(const std::string& text) {
     return std::move(builder.root());
 }
 
-Response json_response(int status, const json& value) {
+std::string to_text(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Response json_text_response(int status, std::string text) {
     Response response{.status = status, .headers = {}, .body = {}};
     response.headers["Content-Type"] = "application/json";
-    response.body = value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+    response.body = std::move(text += '\n');
     return response;
+}
+
+Response json_response(int status, const json& value) {
+    return json_text_response(status, to_text(value));
 }
 
 }  // namespace haarmony::http

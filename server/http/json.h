@@ -19,5 +19,8 @@ inline constexpr int kMaxJsonDepth = 64;
 
 // application/json; bytes that are not UTF-8 (names of files) are replaced by U+FFFD.
 [[nodiscard]] Response json_response(int status, const nlohmann::json& value);
+[[nodiscard]] std::string to_text(const nlohmann::json& value);
+// Of JSON that is written already.
+[[nodiscard]] Response json_text_response(int status, std::string text);
 
 }  // namespace haarmony::http

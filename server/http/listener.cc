@@ -28,7 +28,8 @@ using net::ip::tcp;
 // What accept() fails with when descriptors or memory run short does not pass at once.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
-// Beyond the limit on connections so many are told so; further ones are closed at once.
+// Beyond the limit on connections so many are told so, or answered where the request is an
+// instant one; further ones are closed at once.
 constexpr std::size_t kTurnedAway = 64;
 
 Error cannot_listen(const ListenerOptions& options, const error_code& error) {
@@ -45,10 +46,10 @@ class Listener::Impl {
     Impl(const ListenerOptions& options, const Router& router, Hooks hooks)
         : options_(options),
           hooks_(std::move(hooks)),
-          cheap_(options.cheap_threads, options.cheap_queue),
-          costly_(options.costly_threads, options.costly_queue),
+          cheap_(options.cheap_threads, options.cheap_queue, 0),
+          costly_(options.costly_threads, options.costly_queue, options.costly_niceness),
           // Each session pulls one chunk at a time, so there is room for all of them.
-          streams_(options.stream_threads, options.max_connections),
+          streams_(options.stream_threads, options.max_connections, 0),
           service_{.options = options_,
                    .router = router,
                    .hooks = hooks_,
@@ -112,7 +113,10 @@ Result<void> Listener::Impl::open() {
     if (error) return cannot_listen(options_, error);
 
     net::post(acceptor_.get_executor(), [this] { accept_next(); });
-    for (int i = 0; i < std::max(1, options_.io_threads); ++i) {
+    // All that run cheap handlers at the same time leave those whose work is the sockets.
+    const int threads =
+        std::max(1, options_.io_threads) + std::max(1, options_.cheap_threads);
+    for (int i = 0; i < threads; ++i) {
         threads_.emplace_back([this] { io_.run(); });
     }
     return {};

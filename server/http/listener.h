@@ -27,11 +27,12 @@ namespace haarmony::http {
 struct ListenerOptions {
     std::string host = "127.0.0.1";
     std::uint16_t port = 8080;  // 0: any free port
-    int io_threads = 1;
-    int cheap_threads = 2;
+    int io_threads = 1;     // never busy with anything but sockets and instant requests
+    int cheap_threads = 2;  // so many cheap requests run at the same time
     int costly_threads = 2;
     int cheap_queue = 1024;
     int costly_queue = 64;
+    int costly_niceness = 10;  // a tenth of the processor, where others want it
     int max_connections = 4096;
     std::chrono::milliseconds header_deadline{15'000};
     std::chrono::milliseconds body_deadline{120'000};

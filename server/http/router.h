@@ -19,8 +19,10 @@
 
 namespace haarmony::http {
 
-// Cheap requests never wait behind costly ones: they have a pool each.
-enum class Cost { kCheap, kCostly };
+// Cheap requests never wait behind costly ones: they have a pool each, and the threads of the
+// costly one give way to all others. Instant ones wait for nobody: they are answered on an io
+// thread, even where the queues or the connections are full. Their handlers must not block.
+enum class Cost { kInstant, kCheap, kCostly };
 
 struct RouteOptions {
     Cost cost = Cost::kCheap;

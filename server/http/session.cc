@@ -1,5 +1,6 @@
 #include "server/http/session.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
@@ -26,6 +27,7 @@ using Arrival = Connection::Arrival;
 
 constexpr int kClientLeft = 499;  // in the access log only
 constexpr std::chrono::milliseconds kHalfClosePause{250};
+constexpr std::chrono::milliseconds kTurnedAwayDeadline{2'000};
 constexpr std::size_t kJoined = 16 * 1024;  // a body up to this goes out with its head
 
 Problem overloaded(std::string detail) {
@@ -51,7 +53,7 @@ struct Session::Exchange {
     Clock::time_point began = Clock::now();
     Response response;
     std::optional<std::uint64_t> content_length;
-    bool costly = false;
+    Cost cost = Cost::kCheap;
     bool answered = false;  // without a handler
     bool close = false;     // whatever the client wants
 
@@ -122,23 +124,35 @@ net::awaitable<void> Session::serve() {
 
 net::awaitable<void> Session::turn_away() {
     RequestParser parser;
-    Exchange refused(parser);
-    refused.close = true;
-    refused.refuse(overloaded("The server has as many connections as it takes."));
+    const bool arrived = co_await read_head(
+        parser, std::min(kTurnedAwayDeadline, service_.options.header_deadline));
+    if (!arrived) co_return;
+    Exchange exchange(parser);
+    exchange.close = true;
+    Request& request = parser.request();
+    request.remote = connection_->remote();
+    const RouteMatch match = service_.router.match(request.method, request.path);
+    if (parser.state() == State::kHeadDone && match.options != nullptr &&
+        match.options->cost_for(request) == Cost::kInstant && !admit(request, match)) {
+        run_handler(exchange);
+    } else {
+        exchange.refuse(overloaded("The server has as many connections as it takes."));
+    }
+    connection_->stop_deadline();
     must_linger_ = true;
-    co_await send(refused);
-    report_finished(refused);
+    co_await send(exchange);
+    report_finished(exchange);
 }
 
 // False if the connection ended before there was a request to answer.
-net::awaitable<bool> Session::read_head(RequestParser& parser) {
-    const ListenerOptions& options = service_.options;
+net::awaitable<bool> Session::read_head(RequestParser& parser,
+                                        std::chrono::milliseconds deadline) {
     bool begun = !connection_->received().empty();
-    connection_->start_read_deadline(first_ || begun ? options.header_deadline
-                                                     : options.idle_deadline);
+    connection_->start_read_deadline(first_ || begun ? deadline
+                                                     : service_.options.idle_deadline);
+    connection_->consume(parser.feed(connection_->received()));
+    if (parser.state() != State::kHead) co_return true;
     for (;;) {
-        connection_->consume(parser.feed(connection_->received()));
-        if (parser.state() != State::kHead) co_return true;
         const Arrival arrival = co_await connection_->fill();
         if (arrival == Arrival::kEnd) co_return false;
         if (arrival == Arrival::kTimeout) {
@@ -146,7 +160,9 @@ net::awaitable<bool> Session::read_head(RequestParser& parser) {
             parser.refuse(timed_out("head"));
             co_return true;
         }
-        if (!begun && !first_) connection_->start_read_deadline(options.header_deadline);
+        connection_->consume(parser.feed(connection_->received()));
+        if (parser.state() != State::kHead) co_return true;
+        if (!begun && !first_) connection_->start_read_deadline(deadline);
         begun = true;
     }
 }
@@ -199,7 +215,7 @@ net::awaitable<void> Session::expect_body(RequestParser& parser, std::uint64_t l
 // One request. True if another may follow.
 net::awaitable<bool> Session::serve_request() {
     RequestParser parser;
-    const bool arrived = co_await read_head(parser);
+    const bool arrived = co_await read_head(parser, service_.options.header_deadline);
     if (!arrived) co_return false;
     first_ = false;
     left_ = false;
@@ -232,8 +248,8 @@ net::awaitable<void> Session::receive(Exchange& exchange) {
         } else {
             co_await expect_body(parser, match.options->body_limit);
             if (!gone_ && parser.state() == State::kBody) co_await read_body(parser);
-            exchange.costly = parser.state() == State::kDone &&
-                              match.options->cost_for(request) == Cost::kCostly;
+            if (parser.state() == State::kDone)
+                exchange.cost = match.options->cost_for(request);
         }
         if (exchange.answered && parser.has_body()) exchange.close = must_linger_ = true;
     }
@@ -244,22 +260,32 @@ net::awaitable<void> Session::receive(Exchange& exchange) {
     }
 }
 
-// The answer, while an eye is kept on the client.
+// The answer, while an eye is kept on the client where it takes time.
 net::awaitable<void> Session::respond(Exchange& exchange) {
+    const bool queued = !exchange.answered && !answer_here(exchange);
+    if (queued) {
+        watch(exchange);
+        co_await answer_on_pool(exchange);
+    }
+    const bool streamed = !std::holds_alternative<std::string>(exchange.response.body);
+    if (streamed && !queued) watch(exchange);
+    if (!gone_) {
+        const bool sent = co_await send(exchange);
+        if (!sent) exchange.close = true;
+    }
+    if (!queued && !streamed) co_return;
+    connection_->unwatch();
+    ++request_number_;
+    half_closed_.cancel();
+}
+
+void Session::watch(const Exchange& exchange) {
     const bool wants_to_stay =
         exchange.parser.state() != State::kBad && exchange.parser.keep_alive();
     connection_->watch(
         [weak = weak_from_this(), wants_to_stay](Connection::Departure how) {
             if (const auto self = weak.lock()) self->peer_left(how, wants_to_stay);
         });
-    if (!exchange.answered) co_await answer(exchange);
-    if (!gone_) {
-        const bool sent = co_await send(exchange);
-        if (!sent) exchange.close = true;
-    }
-    connection_->unwatch();
-    ++request_number_;
-    half_closed_.cancel();
 }
 
 // The answer to a client without a key, where one is needed.
@@ -271,29 +297,41 @@ std::optional<Response> Session::admit(const Request& request,
     return service_.hooks.admit(request, options);
 }
 
-// Runs the handler on its pool and prepares its answer there, too.
-net::awaitable<void> Session::answer(Exchange& exchange) {
-    const Service& service = service_;
-    std::function<void()> work = [&exchange, &service] {
-        Request& request = exchange.request();
-        Response& response = exchange.response;
-        response = service.router.dispatch(request, service.hooks.failed);
-        const bool compress = select_gzip(request, response);
-        apply_conditions(request, response);
-        if (compress && response.status == 200) gzip_body(response);
-        exchange.content_length = body_length(response);
-        const auto* range = std::get_if<FileRange>(&response.body);
-        if (range == nullptr) return;
-        Result<ChunkSource> source = open_file_range(*range);
-        if (source) {
-            response.body = *std::move(source);
-            return;
-        }
-        if (service.hooks.failed) service.hooks.failed(request, source.error().message);
-        response = to_response(problem_of(source.error()), request);
-        exchange.content_length = body_length(response);
-    };
-    WorkerPool& pool = exchange.costly ? service_.costly : service_.cheap;
+// The handler, and what makes its answer ready to be sent.
+void Session::run_handler(Exchange& exchange) const {
+    const FailureReport& failed = service_.hooks.failed;
+    Request& request = exchange.request();
+    Response& response = exchange.response;
+    response = service_.router.dispatch(request, failed);
+    const bool compress = select_gzip(request, response);
+    apply_conditions(request, response);
+    if (compress && response.status == 200) gzip_body(response);
+    exchange.content_length = body_length(response);
+    const auto* range = std::get_if<FileRange>(&response.body);
+    if (range == nullptr) return;
+    Result<ChunkSource> source = open_file_range(*range);
+    if (source) {
+        response.body = *std::move(source);
+        return;
+    }
+    if (failed) failed(request, source.error().message);
+    response = to_response(problem_of(source.error()), request);
+    exchange.content_length = body_length(response);
+}
+
+// Waking another thread takes longer than most cheap handlers: they run on this one as long
+// as their pool has a place free. False if the request has to wait for one.
+bool Session::answer_here(Exchange& exchange) const {
+    if (exchange.cost == Cost::kCostly) return false;
+    if (exchange.cost == Cost::kCheap)
+        return service_.cheap.run_here([&] { run_handler(exchange); });
+    run_handler(exchange);
+    return true;
+}
+
+net::awaitable<void> Session::answer_on_pool(Exchange& exchange) {
+    WorkerPool& pool = exchange.cost == Cost::kCostly ? service_.costly : service_.cheap;
+    std::function<void()> work = [this, &exchange] { run_handler(exchange); };
     const JobEnd end = co_await run_on(pool, std::move(work));
     if (end == JobEnd::kRefused) {
         exchange.refuse(overloaded("Too many requests are waiting already."));

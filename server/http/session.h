@@ -40,7 +40,8 @@ struct Service {
 
 class Session : public std::enable_shared_from_this<Session> {
   public:
-    enum class Welcome { kServe, kTooMany };  // too many: a 503, then closed
+    // Too many: one request, answered if it is an instant one and with 503 else.
+    enum class Welcome { kServe, kTooMany };
 
     // `ended` is called when the session is destroyed.
     Session(boost::asio::ip::tcp::socket socket,
@@ -63,13 +64,17 @@ class Session : public std::enable_shared_from_this<Session> {
 
     boost::asio::awaitable<void> serve();
     boost::asio::awaitable<void> turn_away();
-    boost::asio::awaitable<bool> read_head(RequestParser& parser);
+    boost::asio::awaitable<bool> read_head(RequestParser& parser,
+                                           std::chrono::milliseconds deadline);
     boost::asio::awaitable<void> read_body(RequestParser& parser);
     boost::asio::awaitable<void> expect_body(RequestParser& parser, std::uint64_t limit);
     boost::asio::awaitable<bool> serve_request();
     boost::asio::awaitable<void> receive(Exchange& exchange);
     boost::asio::awaitable<void> respond(Exchange& exchange);
-    boost::asio::awaitable<void> answer(Exchange& exchange);
+    void run_handler(Exchange& exchange) const;
+    [[nodiscard]] bool answer_here(Exchange& exchange) const;
+    boost::asio::awaitable<void> answer_on_pool(Exchange& exchange);
+    void watch(const Exchange& exchange);
     boost::asio::awaitable<bool> send(Exchange& exchange);
     boost::asio::awaitable<bool> send_stream(Exchange& exchange,
                                              const ChunkSource& source);

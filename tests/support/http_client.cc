@@ -73,7 +73,11 @@ void HttpClient::reset() {
 
 bool HttpClient::more() {
     std::array<char, 65536> piece{};
-    const ssize_t got = ::recv(descriptor_, piece.data(), piece.size(), 0);
+    ssize_t got = 0;
+    // A process that was stopped for a while goes on with EINTR, as it has a time limit.
+    do {
+        got = ::recv(descriptor_, piece.data(), piece.size(), 0);
+    } while (got < 0 && errno == EINTR);
     if (got < 0 && errno != ECONNRESET)
         fail(std::string("recv: ") + std::strerror(errno));
     if (got > 0) buffer_.append(piece.data(), static_cast<std::size_t>(got));

@@ -184,6 +184,18 @@ TEST_F(QueryTest, OptionsThatSayNothingNewAreTaken) {
               200);
 }
 
+// The indexes are a part of the whole.
+TEST_F(QueryTest, ServerTimingSaysHowLongTheIndexesTook) {
+    const http::Response response = interface_.get("/query?id=1");
+    const std::string timing = header_of(response, "Server-Timing");
+    ASSERT_TRUE(timing.starts_with("search;dur=")) << timing;
+    const double search = std::stod(timing.substr(timing.find('=') + 1));
+    EXPECT_GE(search, 0);
+    // Rounded to a thousandth, hence half of one more.
+    EXPECT_LE(search, json_of(response)["took_ms"].get<double>() + 0.0005);
+    EXPECT_EQ(header_of(interface_.get("/query?id=9999999"), "Server-Timing"), "");
+}
+
 TEST_F(QueryTest, OnlyWhatMayDecodeIsCostly) {
     const auto cost = [](const std::string& parameter,
                          const std::string& type,

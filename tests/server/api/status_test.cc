@@ -25,6 +25,22 @@ TEST(Status, HealthAndReadinessAnswer) {
     EXPECT_EQ(header_of(interface.get("/readyz"), "Cache-Control"), "no-store");
 }
 
+// A handler that waits for anything would hold up every connection.
+TEST(Status, HealthAndReadinessAloneAreInstant) {
+    for (const Route& route : routes())
+        EXPECT_EQ(route.cost == http::Cost::kInstant,
+                  route.pattern == "/healthz" || route.pattern == "/readyz")
+            << route.pattern;
+}
+
+TEST(Status, RequestsThatMayWaitForAWriterAreCostly) {
+    for (const Route& route : routes()) {
+        if (route.method == "GET") continue;
+        EXPECT_EQ(route.cost, http::Cost::kCostly)
+            << route.method << " " << route.pattern;
+    }
+}
+
 TEST(Status, UntilTheCollectionIsLoadedTheDaemonIsWellButNotReady) {
     Collection collection;
     const auto sql = [&](const std::string& statement) {

@@ -105,7 +105,7 @@ class ImageSearchTest : public testing::Test {
 
 TEST_F(ImageSearchTest, TellsRowsAndDistancesOfTheMatches) {
     const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
-    const auto found = search_images(plan_over(snapshot), 3, nullptr, readers_);
+    const auto found = search_images(plan_over(snapshot), 3, nullptr, nullptr, readers_);
     ASSERT_TRUE(found);
     EXPECT_EQ(ids_of(found.value()), expected({}, 3));
     EXPECT_EQ(found->searched, kRows);
@@ -139,7 +139,7 @@ TEST_F(ImageSearchTest, RowsThatVanishedAreReplacedByTheNextBest) {
         for (const int limit : {1, 5, 8, kRows, 1000}) {
             const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
             const auto found =
-                search_images(plan_over(snapshot), limit, nullptr, readers_);
+                search_images(plan_over(snapshot), limit, nullptr, nullptr, readers_);
             ASSERT_TRUE(found);
             EXPECT_EQ(ids_of(found.value()), expected(gone, limit))
                 << gone.size() << " gone, limit " << limit;
@@ -150,7 +150,7 @@ TEST_F(ImageSearchTest, RowsThatVanishedAreReplacedByTheNextBest) {
 TEST_F(ImageSearchTest, NothingLeftIsAnEmptyAnswer) {
     remove({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20});
     const auto snapshot = std::make_shared<FixedSnapshot>(kRows);
-    const auto found = search_images(plan_over(snapshot), 5, nullptr, readers_);
+    const auto found = search_images(plan_over(snapshot), 5, nullptr, nullptr, readers_);
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->images.empty());
 }
@@ -161,7 +161,8 @@ TEST_F(ImageSearchTest, MinSimilarityCutsTheTail) {
     for (std::int64_t last = 1; last <= kRows; ++last) {
         const double least = image::similarity(query_, FixedSnapshot::score_of(last));
         options_.min_similarity = least;
-        const auto found = search_images(plan_over(snapshot), 6, nullptr, readers_);
+        const auto found =
+            search_images(plan_over(snapshot), 6, nullptr, nullptr, readers_);
         ASSERT_TRUE(found);
         std::vector<std::int64_t> wanted;
         for (const std::int64_t id : expected({2}, 6))
@@ -176,7 +177,7 @@ TEST_F(ImageSearchTest, AConnectionThatCannotBeHadIsAnError) {
         return Error{ErrorCode::kIo, "no connection"};
     });
     const auto found = search_images(
-        plan_over(std::make_shared<FixedSnapshot>(kRows)), 5, nullptr, broken);
+        plan_over(std::make_shared<FixedSnapshot>(kRows)), 5, nullptr, nullptr, broken);
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().message, "no connection");
 }

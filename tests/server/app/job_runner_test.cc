@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/schema/raw_sql.h"
@@ -75,6 +78,23 @@ TEST_F(JobRunnerTest, JobsRunOneAfterTheOtherInTheOrderOfTheirCreation) {
     jobs->stop();
     EXPECT_EQ(order, ids);
     EXPECT_EQ(most, 1);
+}
+
+// What a job starts inherits it.
+TEST_F(JobRunnerTest, JobsGiveWayToEverythingElse) {
+    const int ours = ::getpriority(PRIO_PROCESS, 0);
+    std::atomic<int> theirs{0};
+    std::atomic<int> childs{0};
+    const auto jobs =
+        runner({{"note", {[&](JobContext&) -> Result<void> {
+                     theirs = ::getpriority(PRIO_PROCESS, 0);
+                     std::thread([&] { childs = ::getpriority(PRIO_PROCESS, 0); }).join();
+                     return {};
+                 }}}});
+    const std::int64_t id = jobs->create("note", "{}")->id;
+    EXPECT_EQ(finished(*jobs, id).state, JobState::kDone);
+    EXPECT_EQ(theirs, std::min(ours + 10, 19));
+    EXPECT_EQ(childs, theirs);
 }
 
 TEST_F(JobRunnerTest, KeepsCountsTotalTheFirstErrorsAndTheResult) {

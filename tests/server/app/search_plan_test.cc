@@ -132,7 +132,8 @@ class SearchPlanTest : public testing::Test {
 const std::vector<Symmetry> kAll(image::kSymmetries.begin(), image::kSymmetries.end());
 
 TEST_F(SearchPlanTest, AsksForThePictureAsItIs) {
-    expect_all(make()->best(1000, nullptr), {Symmetry::kIdentity}, {"yiq-standard"});
+    expect_all(
+        make()->best(1000, nullptr, nullptr), {Symmetry::kIdentity}, {"yiq-standard"});
     EXPECT_EQ(make()->m(), kM);
     options_.m = 7;
     EXPECT_EQ(make()->m(), 7);
@@ -140,38 +141,39 @@ TEST_F(SearchPlanTest, AsksForThePictureAsItIs) {
 
 TEST_F(SearchPlanTest, EveryOrientationCountsAtItsBest) {
     options_.orientations = Orientations::kMirror;
-    expect_all(make()->best(1000, nullptr),
+    expect_all(make()->best(1000, nullptr, nullptr),
                {Symmetry::kIdentity, Symmetry::kMirrorX},
                {"yiq-standard"});
     options_.orientations = Orientations::kAll;
-    expect_all(make()->best(1000, nullptr), kAll, {"yiq-standard"});
+    expect_all(make()->best(1000, nullptr, nullptr), kAll, {"yiq-standard"});
 }
 
 TEST_F(SearchPlanTest, WhatIsWithinBordersIsAnotherLook) {
     options_.content = true;
     options_.orientations = Orientations::kAll;
-    expect_all(
-        make()->best(1000, nullptr), kAll, {"yiq-standard", "yiq-standard-content"});
+    expect_all(make()->best(1000, nullptr, nullptr),
+               kAll,
+               {"yiq-standard", "yiq-standard-content"});
 }
 
 TEST_F(SearchPlanTest, TheShapeTurnsWithThePicture) {
     options_.aspect_weight = 300;
     options_.orientations = Orientations::kAll;
-    expect_all(make()->best(1000, nullptr), kAll, {"yiq-standard"});
+    expect_all(make()->best(1000, nullptr, nullptr), kAll, {"yiq-standard"});
 }
 
 // Bins of the linear rule change under a mirror, and with them the sum of the weights.
 TEST_F(SearchPlanTest, WaysOfOtherWeightsAreComparedByDistance) {
     options_.profiles[0].bin_rule = image::BinRule::kLinear;
     options_.orientations = Orientations::kAll;
-    expect_all(make()->best(1000, nullptr), kAll, {"yiq-standard"});
+    expect_all(make()->best(1000, nullptr, nullptr), kAll, {"yiq-standard"});
 }
 
 // Equation (4.3) under the window's own weights, as with_weight_sum() makes them.
 TEST_F(SearchPlanTest, EveryWindowCountsAtItsBest) {
     std::vector<image::Signature>& windows = picture_.signatures.at({});
     for (int i = 0; i < 4; ++i) windows.push_back(random_signature(random_, kShape));
-    const Candidates found = make()->best(1000, nullptr);
+    const Candidates found = make()->best(1000, nullptr, nullptr);
     const image::Profile& profile = options_.profiles[0];
     const image::Query first = image::make_query(windows[0], profile, kM);
     ASSERT_EQ(found.best.size(), 60U);
@@ -202,9 +204,9 @@ TEST_F(SearchPlanTest, AFewAreTheFirstOfAll) {
     options_.orientations = Orientations::kAll;
     options_.content = true;
     const SearchPlan plan = std::move(make()).value();
-    const std::vector<Candidate> all = plan.best(1000, nullptr).best;
+    const std::vector<Candidate> all = plan.best(1000, nullptr, nullptr).best;
     for (const int limit : {1, 2, 19, 60}) {
-        const Candidates few = plan.best(limit, nullptr);
+        const Candidates few = plan.best(limit, nullptr, nullptr);
         ASSERT_EQ(static_cast<int>(few.best.size()), limit);
         for (int i = 0; i < limit; ++i) EXPECT_EQ(few.best[i].id, all[i].id);
     }
@@ -215,7 +217,7 @@ TEST_F(SearchPlanTest, MinSimilarityKeepsAllThatAreSimilarEnough) {
         options_.orientations = orientations;
         options_.profiles[0].bin_rule = image::BinRule::kLinear;
         options_.min_similarity.reset();
-        const std::vector<Candidate> all = make()->best(1000, nullptr).best;
+        const std::vector<Candidate> all = make()->best(1000, nullptr, nullptr).best;
         for (const std::size_t at : {0U, 5U, 30U, 59U}) {
             options_.min_similarity = all[at].similarity;
             std::vector<ImageId> expected;
@@ -223,7 +225,7 @@ TEST_F(SearchPlanTest, MinSimilarityKeepsAllThatAreSimilarEnough) {
                 if (candidate.similarity >= *options_.min_similarity)
                     expected.push_back(candidate.id);
             for (const int limit : {1, 4, 1000}) {
-                const Candidates found = make()->best(limit, nullptr);
+                const Candidates found = make()->best(limit, nullptr, nullptr);
                 std::vector<ImageId> ids;
                 for (const Candidate& candidate : found.best) ids.push_back(candidate.id);
                 std::vector<ImageId> first = expected;
@@ -237,7 +239,7 @@ TEST_F(SearchPlanTest, MinSimilarityKeepsAllThatAreSimilarEnough) {
 TEST_F(SearchPlanTest, AFilterNarrowsTheSearch) {
     const std::vector<ImageId> wanted{ImageId{7}, ImageId{8}, ImageId{50}};
     const image::IdSet only(wanted);
-    const Candidates found = make()->best(2, &only);
+    const Candidates found = make()->best(2, &only, nullptr);
     EXPECT_EQ(found.best.size(), 2U);
     EXPECT_EQ(found.searched, 3);
 }
@@ -247,7 +249,7 @@ TEST_F(SearchPlanTest, RanksOfProfilesAreCombined) {
     for (const image::CombineBy by :
          {image::CombineBy::kMean, image::CombineBy::kWorst}) {
         options_.combine_by = by;
-        const Candidates found = make()->best(60, nullptr);
+        const Candidates found = make()->best(60, nullptr, nullptr);
         ASSERT_EQ(found.best.size(), 60U);
         for (const Candidate& candidate : found.best) {
             double ranks[2] = {1, 1};
@@ -283,9 +285,9 @@ TEST_F(SearchPlanTest, RanksOfProfilesAreCombined) {
 
 TEST_F(SearchPlanTest, CombinedRanksObeyLimitAndSimilarity) {
     options_.profiles.push_back(lab_profile());
-    const std::vector<Candidate> all = make()->best(60, nullptr).best;
+    const std::vector<Candidate> all = make()->best(60, nullptr, nullptr).best;
     options_.min_similarity = all[20].similarity;
-    const Candidates found = make()->best(3, nullptr);
+    const Candidates found = make()->best(3, nullptr, nullptr);
     std::vector<ImageId> expected;
     for (const Candidate& candidate : all)
         if (candidate.similarity >= *options_.min_similarity && expected.size() < 3)
@@ -293,7 +295,7 @@ TEST_F(SearchPlanTest, CombinedRanksObeyLimitAndSimilarity) {
     std::vector<ImageId> ids;
     for (const Candidate& candidate : found.best) ids.push_back(candidate.id);
     EXPECT_EQ(ids, expected);
-    EXPECT_TRUE(make()->best(60, nullptr).exhausted);
+    EXPECT_TRUE(make()->best(60, nullptr, nullptr).exhausted);
 }
 
 TEST_F(SearchPlanTest, RefusesWhatCannotBeCompared) {

@@ -216,6 +216,51 @@ TEST(ListenerLimits, ConnectionsBeyondTheLimitAreTurnedAway) {
     EXPECT_TRUE(server.is_usable());
 }
 
+TEST(ListenerLimits, ConnectionBeyondTheLimitIsToldWhatIsInstant) {
+    TestServer server;
+    server.options.max_connections = 1;
+    server.router.add("GET", "/alive", {.cost = Cost::kInstant}, [](const Request&) {
+        return Response{.status = 200, .headers = {}, .body = "alive"};
+    });
+    server.start();
+    HttpClient first(server.port());
+    ASSERT_EQ(first.get("/hello").status, 200);
+    HttpClient second(server.port());
+    EXPECT_EQ(second.get("/alive").body, "alive");
+    EXPECT_TRUE(second.at_end());
+    EXPECT_TRUE(eventually([&] { return server.listener->load().connections == 1; }));
+    HttpClient third(server.port());
+    EXPECT_EQ(third.get("/hello").status, 503);
+}
+
+// A key is asked for beyond the limit, too.
+TEST(ListenerLimits, ConnectionBeyondTheLimitIsToldNothingWithoutItsKey) {
+    TestServer server;
+    server.options.max_connections = 1;
+    server.router.add("GET", "/alive", {.cost = Cost::kInstant}, [](const Request&) {
+        return Response{.status = 200, .headers = {}, .body = "alive"};
+    });
+    server.hooks.admit = [](const Request& request,
+                            const RouteOptions&) -> std::optional<Response> {
+        if (request.path != "/alive") return {};
+        return Response{.status = 401, .headers = {}, .body = "no key"};
+    };
+    server.start();
+    HttpClient first(server.port());
+    ASSERT_EQ(first.get("/hello").status, 200);
+    EXPECT_EQ(HttpClient(server.port()).get("/alive").status, 503);
+}
+
+TEST(ListenerLimits, SilentConnectionBeyondTheLimitIsClosed) {
+    TestServer server;
+    server.options.max_connections = 1;
+    server.options.header_deadline = std::chrono::milliseconds(100);
+    server.start();
+    HttpClient first(server.port());
+    ASSERT_EQ(first.get("/hello").status, 200);
+    EXPECT_TRUE(HttpClient(server.port()).at_end());
+}
+
 TEST(ListenerLimits, ConnectionsFarBeyondTheLimitAreClosedAtOnce) {
     TestServer server;
     server.options.max_connections = 1;
@@ -227,6 +272,7 @@ TEST(ListenerLimits, ConnectionsFarBeyondTheLimitAreClosedAtOnce) {
     int told = 0;
     for (int i = 0; i < 100; ++i) {
         more.push_back(std::make_unique<HttpClient>(server.port()));
+        more.back()->send("GET /hello HTTP/1.1\r\nHost: h\r\n\r\n");
         // Either the 503, after which the server lingers, or nothing at all.
         if (!more.back()->at_end()) ++told;
     }

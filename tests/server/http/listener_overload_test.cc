@@ -14,13 +14,23 @@ namespace haarmony::http::test {
 namespace {
 
 constexpr const char* kGate = "GET /gate HTTP/1.1\r\nHost: h\r\n\r\n";
+constexpr const char* kCheapGate = "GET /cheap-gate HTTP/1.1\r\nHost: h\r\n\r\n";
 
-// One costly thread, held at the gate, and a queue of the given size.
+// One thread of each kind, the costly one held at the gate, and queues of the given size.
 class Overloaded {
   public:
     explicit Overloaded(int queue) {
         server.options.costly_threads = 1;
         server.options.costly_queue = queue;
+        server.options.cheap_threads = 1;
+        server.options.cheap_queue = queue;
+        server.router.add("GET", "/cheap-gate", {}, [this](const Request&) {
+            server.gate.pass();
+            return Response{.status = 200, .headers = {}, .body = "through"};
+        });
+        server.router.add("GET", "/alive", {.cost = Cost::kInstant}, [](const Request&) {
+            return Response{.status = 200, .headers = {}, .body = "alive"};
+        });
         server.router.add(
             "POST",
             "/either",
@@ -66,6 +76,34 @@ TEST(ListenerOverload, FullQueueIs503WhileCheapRequestsPass) {
     EXPECT_EQ(second.receive().body, "through");
     EXPECT_EQ(third.receive().body, "through");
     EXPECT_EQ(fourth.get("/gate").body, "through");
+}
+
+// Both queues are full, and every thread is held.
+TEST(ListenerOverload, InstantRequestsPassFullQueues) {
+    Overloaded overloaded(1);
+    TestServer& server = overloaded.server;
+    HttpClient waiting(server.port());
+    waiting.send(kGate);
+    ASSERT_TRUE(overloaded.queued(1));
+    HttpClient held(server.port());
+    held.send(kCheapGate);
+    ASSERT_TRUE(server.gate.wait_for(2));
+    HttpClient cheap(server.port());
+    cheap.send(kCheapGate);
+    ASSERT_TRUE(eventually([&] { return server.listener->load().cheap_queued == 1; }));
+
+    HttpClient client(server.port());
+    for (const char* target : {"/gate", "/cheap-gate", "/hello"}) {
+        const HttpReply refused = client.get(target);
+        EXPECT_EQ(refused.status, 503) << target;
+        EXPECT_EQ(refused.header("content-type"), "application/problem+json") << target;
+        EXPECT_GE(std::stoi(refused.header("retry-after")), 1) << target;
+        EXPECT_EQ(nlohmann::json::parse(refused.body)["code"], "overloaded") << target;
+        EXPECT_EQ(client.get("/alive").body, "alive") << target;
+    }
+    server.gate.open();
+    EXPECT_EQ(cheap.receive().body, "through");
+    EXPECT_EQ(client.get("/hello").body, "hello");
 }
 
 // The body decides: the same route is answered while its costly requests wait.
