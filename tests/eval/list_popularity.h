@@ -1,0 +1,30 @@
+// How long the lists of the search arrays are that queries read: what makes a collection
+// realistic to time a search on.
+//
+// Units   densities and shares in [0, 1]: a list of density 0.1 names every tenth picture.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "tests/eval/packed_signature.h"
+
+namespace haarmony::eval {
+
+struct ListPopularity {
+    int m = 0;
+    std::int64_t non_empty_lists = 0;  // of image::kKeyCount
+    double hits_per_picture = 0;       // postings that a query reads / pictures, the mean
+    double median_density = 0;         // of the lists that queries read
+    double p90_density = 0;
+    double largest_density = 0;
+    std::int64_t popular_lists = 0;  // of more than 1 % of the pictures
+    double popular_share = 0;        // of all postings
+};
+
+// Requires: signatures and queries not empty; 1 <= m <= kPackedCoefficients.
+[[nodiscard]] ListPopularity list_popularity(std::span<const PackedSignature> signatures,
+                                             std::span<const PackedSignature> queries,
+                                             int m);
+
+}  // namespace haarmony::eval
