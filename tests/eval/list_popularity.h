@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "tests/eval/packed_signature.h"
 
@@ -22,9 +23,18 @@ struct ListPopularity {
     double popular_share = 0;        // of all postings
 };
 
-// Requires: signatures and queries not empty; 1 <= m <= kPackedCoefficients.
-[[nodiscard]] ListPopularity list_popularity(std::span<const PackedSignature> signatures,
-                                             std::span<const PackedSignature> queries,
-                                             int m);
+class ListLengths {
+  public:
+    // Requires: signatures not empty; 1 <= m <= kPackedCoefficients.
+    ListLengths(std::span<const PackedSignature> signatures, int m);
+
+    // Requires: queries not empty.
+    [[nodiscard]] ListPopularity read_by(std::span<const PackedSignature> queries) const;
+
+  private:
+    int m_;
+    double pictures_;
+    std::vector<std::int64_t> lengths_;  // by image::coefficient_key()
+};
 
 }  // namespace haarmony::eval

@@ -153,13 +153,13 @@ int main(int argc, char** argv) {
                      "how many synthetic pictures: one number or several, with commas")
         ->required()
         ->delimiter(',')
-        ->check(CLI::Range(haarmony::eval::kFewestImages, std::int64_t{100'000'000}));
+        ->check(CLI::Range(haarmony::eval::kMostSpeedQueries, 100'000'000));
     speed->add_option("--photos",
                       speed_command.options.photos,
                       "folder of pictures that they are cut from; else generated ones");
     speed->add_option("--out", speed_command.out, "folder for speed.html and the tables");
     speed->add_option("--queries", speed_command.options.queries, "queries of each kind")
-        ->check(CLI::Range(1, haarmony::eval::kSyntheticQueries))
+        ->check(CLI::Range(1, haarmony::eval::kMostSpeedQueries))
         ->capture_default_str();
     speed->add_option("--seed", speed_command.options.seed, "of everything random")
         ->capture_default_str();

@@ -25,7 +25,7 @@ struct Header {
     std::uint64_t seed = 0;
     std::uint64_t source_digest = 0;
     std::uint64_t images = 0;
-    std::uint32_t queries = kSyntheticQueries;
+    std::uint32_t queries = 0;
     std::array<std::uint8_t, 20> zero{};
 };
 static_assert(sizeof(Header) == 64 && std::is_trivially_copyable_v<Header>);
@@ -121,8 +121,7 @@ Result<SyntheticCollection> read(const std::string& path,
     Header header;
     if (!in.get(std::span(&header, 1)) || header.magic != kMagic)
         return Error{ErrorCode::kUnsupportedFormat, path + ": no cache of signatures"};
-    if (header.format != kFormat || header.recipes != kRecipes ||
-        header.queries != kSyntheticQueries) {
+    if (header.format != kFormat || header.recipes != kRecipes) {
         return Error{ErrorCode::kUnsupportedFormat,
                      path + ": version " + std::to_string(header.format) + "." +
                          std::to_string(header.recipes) + ", not " +
@@ -192,10 +191,11 @@ Result<void> write_collection_cache(const SyntheticCollection& collection,
     header.seed = collection.seed;
     header.source_digest = collection.source_digest;
     header.images = collection.signatures.size();
+    header.queries = static_cast<std::uint32_t>(collection.queries.front().size());
     out.put(std::span<const Header>(&header, 1));
     out.put_checksum();
     for (const auto& queries : collection.queries) {
-        assert(queries.size() == kSyntheticQueries);
+        assert(queries.size() == header.queries);
         out.put(std::span(queries));
     }
     out.put_checksum();

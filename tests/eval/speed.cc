@@ -25,9 +25,7 @@ namespace {
 
 using Progress = std::function<void(const std::string&)>;
 
-constexpr int kGeneratedPhotos = 60;
 constexpr std::size_t kApplied = 16384;  // records in one call of apply()
-constexpr std::size_t kBandwidthBytes = std::size_t{512} << 20U;
 constexpr int kBandwidthPasses = 5;
 constexpr int kBruteForceQueries = 20;
 
@@ -43,7 +41,8 @@ constexpr std::array kRules = {image::BinRule::kLiteral,
                                image::BinRule::kLinear};
 
 Result<SmallPhotos> photos_of(const SpeedOptions& options, Executor& executor) {
-    if (options.photos.empty()) return paint_small_photos(kGeneratedPhotos, executor);
+    if (options.photos.empty())
+        return paint_small_photos(options.generated_photos, executor);
     const auto source = folder_source(options.photos);
     if (!source) return source.error();
     auto photos = load_small_photos(*source, executor);
@@ -60,33 +59,27 @@ Result<SyntheticCollection> collection_of(const SpeedOptions& options,
                                           Executor& executor,
                                           const Progress& progress) {
     const std::int64_t images = options.images.back();
-    if (!options.cache.empty()) {
-        auto cached = read_collection_cache(options.cache, images);
-        if (!cached) {
-            progress(cached.error().message);
-        } else if (cached->seed != options.seed ||
-                   cached->source_digest != photos.digest) {
-            progress(options.cache + ": of another seed or of other photos");
-        } else {
-            return cached;
-        }
+    const auto make = [&](int queries) {
+        progress("making " + std::to_string(images) + " pictures");
+        return make_synthetic_collection(
+            photos, {options.seed, images, queries}, executor);
+    };
+    if (options.cache.empty()) return make(options.queries);
+    auto cached = read_collection_cache(options.cache, images);
+    const auto queries = static_cast<std::size_t>(options.queries);
+    if (!cached) {
+        progress(cached.error().message);
+    } else if (cached->seed != options.seed || cached->source_digest != photos.digest ||
+               cached->queries.front().size() < queries) {
+        progress(options.cache + ": of another seed, of other photos or too few queries");
+    } else {
+        return cached;
     }
-    progress("making " + std::to_string(images) + " pictures");
-    SyntheticCollection made =
-        make_synthetic_collection(photos, options.seed, images, executor);
-    if (!options.cache.empty()) {
-        const auto written = write_collection_cache(made, options.cache);
-        if (!written) return written.error();
-    }
+    SyntheticCollection made = make(static_cast<int>(
+        std::min<std::int64_t>(kMostSpeedQueries, options.images.front())));
+    const auto written = write_collection_cache(made, options.cache);
+    if (!written) return written.error();
     return made;
-}
-
-std::vector<PackedSignature> signatures_of(const std::vector<SyntheticQuery>& queries,
-                                           std::size_t count) {
-    std::vector<PackedSignature> signatures;
-    for (const SyntheticQuery& query : std::span(queries).first(count))
-        signatures.push_back(query.signature);
-    return signatures;
 }
 
 void measure_popularity(const SmallPhotos& photos,
@@ -98,19 +91,21 @@ void measure_popularity(const SmallPhotos& photos,
         of_photos[i] = pack(image::make_signature(photos.pictures[i].view()));
     });
     for (const Case& c : kCases) {
-        report.photos.push_back(list_popularity(of_photos, of_photos, c.m));
-        for (std::size_t k = 0; k < kSyntheticKinds.size(); ++k) {
-            const auto queries = signatures_of(collection.queries[k], kSyntheticQueries);
-            report.synthetic.emplace_back(
-                kSyntheticKinds[k], list_popularity(collection.signatures, queries, c.m));
+        report.photos.push_back(ListLengths(of_photos, c.m).read_by(of_photos));
+        const ListLengths lengths(collection.signatures, c.m);
+        for (const SyntheticKind kind : kSyntheticKinds) {
+            std::vector<PackedSignature> queries;
+            for (const SyntheticQuery& query :
+                 collection.queries[static_cast<std::size_t>(kind)]) {
+                queries.push_back(query.signature);
+            }
+            report.synthetic.emplace_back(kind, lengths.read_by(queries));
         }
     }
 }
 
-// Short answers are timed several at a time: a clock costs as much as a tiny search.
-int calls_for(std::int64_t images) {
-    return static_cast<int>(std::clamp<std::int64_t>(20'000 / images, 1, 20));
-}
+// Short answers are timed several at a time: looking at the clock takes a while itself.
+int calls_for(std::int64_t images) { return images < 10'000 ? 4 : 1; }
 
 class Measurement {
   public:
@@ -330,9 +325,9 @@ std::int64_t SpeedReport::mismatches() const {
 Result<SpeedReport> measure_speed(const SpeedOptions& options,
                                   Executor& executor,
                                   const Progress& progress) {
-    assert(!options.images.empty() && options.images.front() >= kFewestImages);
-    assert(std::ranges::is_sorted(options.images));
-    assert(options.queries >= 1 && options.queries <= kSyntheticQueries);
+    assert(!options.images.empty() && std::ranges::is_sorted(options.images));
+    assert(options.queries >= 1 && options.queries <= kMostSpeedQueries);
+    assert(options.images.front() >= options.queries);
     const auto photos = photos_of(options, executor);
     if (!photos) return photos.error();
     SpeedReport report;
@@ -349,7 +344,7 @@ Result<SpeedReport> measure_speed(const SpeedOptions& options,
     if (!collection) return collection.error();
     progress("popularity of lists");
     measure_popularity(*photos, *collection, executor, report);
-    report.bytes_per_second = memory_bandwidth(kBandwidthBytes, kBandwidthPasses);
+    report.bytes_per_second = memory_bandwidth(options.bandwidth_bytes, kBandwidthPasses);
     Measurement measurement(options, *collection, executor, progress, report);
     for (const std::int64_t images : options.images) measurement.run(images);
     return report;

@@ -11,6 +11,7 @@
 // Source  sec. 4.5.5, Table 4.2.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -29,15 +30,18 @@ namespace haarmony::eval {
 
 inline constexpr int kSpeedMatches = 20;  // one screen
 
-// Near queries and sketches are of the first pictures: fewer would leave them out.
-inline constexpr std::int64_t kFewestImages = kSyntheticQueries;
+// The most queries of each kind, and so many a cache holds. Near queries and sketches are of
+// the first pictures, so that a collection has no fewer.
+inline constexpr int kMostSpeedQueries = 256;
 
 struct SpeedOptions {
-    std::vector<std::int64_t> images;  // sizes, rising, each >= kFewestImages
+    std::vector<std::int64_t> images;  // sizes, rising, the first >= queries
     std::string photos;                // a folder; empty for generated pictures
+    int generated_photos = 60;         // how many, where there is no folder; >= 2
     std::string cache;                 // a file; empty for none
-    int queries = 60;                  // of each kind, 1 .. kSyntheticQueries
+    int queries = 60;                  // of each kind, 1 .. kMostSpeedQueries
     std::uint64_t seed = 1;
+    std::size_t bandwidth_bytes = std::size_t{512} << 20U;  // read to measure memory
 };
 
 // One size, m, bin rule and kind of query.

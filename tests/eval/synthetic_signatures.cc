@@ -87,15 +87,15 @@ std::string synthetic_kind_name(SyntheticKind kind) {
 }
 
 SyntheticCollection make_synthetic_collection(const SmallPhotos& photos,
-                                              std::uint64_t seed,
-                                              std::int64_t images,
+                                              const SyntheticSize& size,
                                               Executor& executor) {
-    assert(photos.pictures.size() >= 2 && images >= 1);
-    const Maker maker(photos, seed);
+    assert(photos.pictures.size() >= 2);
+    assert(1 <= size.queries && size.queries <= size.images);
+    const Maker maker(photos, size.seed);
     SyntheticCollection collection;
-    collection.seed = seed;
+    collection.seed = size.seed;
     collection.source_digest = photos.digest;
-    const auto count = static_cast<std::size_t>(images);
+    const auto count = static_cast<std::size_t>(size.images);
     collection.signatures.resize(count);
     collection.cells.resize(count);
     collection.histograms.resize(count);
@@ -109,13 +109,14 @@ SyntheticCollection make_synthetic_collection(const SmallPhotos& photos,
             collection.histograms[i] = features.histogram;
         }
     });
-    for (std::size_t k = 0; k < kSyntheticKinds.size(); ++k) {
-        collection.queries[k].resize(kSyntheticQueries);
-        executor.parallel_for(kSyntheticQueries, [&](std::size_t i) {
-            const RgbPicture picture = maker.query(kSyntheticKinds[k], i);
-            collection.queries[k][i] = {
-                pack(image::make_signature(picture.view())),
-                compact_features(resize(picture, image::kSide, image::kSide))};
+    for (const SyntheticKind kind : kSyntheticKinds) {
+        std::vector<SyntheticQuery>& queries =
+            collection.queries[static_cast<std::size_t>(kind)];
+        queries.resize(static_cast<std::size_t>(size.queries));
+        executor.parallel_for(queries.size(), [&](std::size_t i) {
+            const RgbPicture picture = maker.query(kind, i);
+            queries[i] = {pack(image::make_signature(picture.view())),
+                          compact_features(resize(picture, image::kSide, image::kSide))};
         });
     }
     return collection;

@@ -30,8 +30,12 @@ inline constexpr std::array kSyntheticKinds = {SyntheticKind::kNear,
 // "near", "novel" or "sketch".
 [[nodiscard]] std::string synthetic_kind_name(SyntheticKind kind);
 
-// Of each kind. Near queries and sketches show the pictures 0 .. kSyntheticQueries - 1.
-inline constexpr int kSyntheticQueries = 256;
+// How much is made, and from which seed.
+struct SyntheticSize {
+    std::uint64_t seed = 1;
+    std::int64_t images = 0;
+    int queries = 0;  // of each kind; near queries and sketches show the first pictures
+};
 
 struct SyntheticQuery {
     PackedSignature signature;
@@ -52,11 +56,10 @@ struct SyntheticCollection {
     }
 };
 
-// Requires: two photos at least, images >= 1. Cost: about 0.5 ms of one core and 1,000 bytes
-// a picture.
+// Requires: two photos at least, 1 <= size.queries <= size.images. Cost: about 0.5 ms of one
+// core and 1,000 bytes a picture.
 [[nodiscard]] SyntheticCollection make_synthetic_collection(const SmallPhotos& photos,
-                                                            std::uint64_t seed,
-                                                            std::int64_t images,
+                                                            const SyntheticSize& size,
                                                             Executor& executor);
 
 }  // namespace haarmony::eval
