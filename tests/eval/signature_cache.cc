@@ -143,6 +143,13 @@ Result<SyntheticCollection> read(const std::string& path,
         if (!in.get(std::span(queries))) return damaged("its queries are");
     }
     if (!in.get_checksum()) return damaged("its queries are");
+    const auto read_pictures = std::min<std::uint64_t>(
+        header.images, (wanted + kCacheBlock - 1) / kCacheBlock * kCacheBlock);
+    collection.signatures.reserve(read_pictures);
+    if (with_features) {
+        collection.cells.reserve(read_pictures);
+        collection.histograms.reserve(read_pictures);
+    }
     for (std::uint64_t first = 0; first < wanted; first += kCacheBlock) {
         const std::uint64_t count =
             std::min<std::uint64_t>(kCacheBlock, header.images - first);

@@ -244,14 +244,10 @@ void Measurement::check(const std::vector<Asked>& asked) {
     const auto expected =
         exhaustive_matches(signatures_, queries, kSpeedMatches, executor_);
     for (std::size_t a = 0; a < asked.size(); ++a) {
-        const std::size_t first = a * queries_;
-        for (std::size_t i = 0; i < queries_; ++i) {
-            const image::SearchResult& answer = asked[a].answers[i];
-            const bool same =
-                answer.matches == expected[first + i] && answer.searched == images_;
-            report_.rows[asked[a].row].mismatches += same ? 0 : 1;
-        }
-        check_oracle(asked[a], expected[first]);
+        const auto answers = std::span(expected).subspan(a * queries_, queries_);
+        report_.rows[asked[a].row].mismatches =
+            count_mismatches(asked[a].answers, answers, images_);
+        check_oracle(asked[a], answers.front());
     }
 }
 
@@ -320,6 +316,19 @@ std::int64_t SpeedReport::mismatches() const {
     std::int64_t sum = oracle_errors;
     for (const SpeedRow& row : rows) sum += row.mismatches;
     return sum;
+}
+
+std::int64_t count_mismatches(std::span<const image::SearchResult> answers,
+                              std::span<const std::vector<image::Match>> expected,
+                              std::int64_t images) {
+    assert(answers.size() == expected.size());
+    std::int64_t mismatches = 0;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const bool same =
+            answers[i].matches == expected[i] && answers[i].searched == images;
+        mismatches += same ? 0 : 1;
+    }
+    return mismatches;
 }
 
 Result<SpeedReport> measure_speed(const SpeedOptions& options,

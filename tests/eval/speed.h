@@ -14,12 +14,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/executor.h"
 #include "engine/core/result.h"
 #include "engine/image/profile.h"
+#include "engine/image/query.h"
 #include "tests/eval/list_popularity.h"
 #include "tests/eval/paired_times.h"
 #include "tests/eval/rival_metrics.h"
@@ -88,6 +91,13 @@ struct SpeedReport {
 
     [[nodiscard]] std::int64_t mismatches() const;
 };
+
+// How many answers are not exactly the expected matches, ids, order and scores, or did not
+// look at all `images`. Requires: as many of the one as of the other.
+[[nodiscard]] std::int64_t count_mismatches(
+    std::span<const image::SearchResult> answers,
+    std::span<const std::vector<image::Match>> expected,
+    std::int64_t images);
 
 // `progress` hears one line for each step.
 // Requires: the options are in their ranges.

@@ -72,13 +72,15 @@ std::array<std::array<std::uint8_t, 256>, 3> tone_tables(const Recolouring& colo
     return tables;
 }
 
+// One row of a box, a channel at a time: what follows reading works on whole vectors.
+using PlanarRow = std::array<std::array<std::int32_t, image::kSide>, 3>;
+
 // `vivid` is the saturation in 1/256.
-void saturate_row(std::uint8_t* row, int pixels, int vivid) {
-    for (int x = 0; x < pixels; ++x, row += 3) {
-        const int grey = (77 * row[0] + 150 * row[1] + 29 * row[2]) / 256;
-        for (int c = 0; c < 3; ++c) {
-            row[c] = static_cast<std::uint8_t>(
-                std::clamp(grey + (row[c] - grey) * vivid / 256, 0, 255));
+void saturate(PlanarRow& row, int vivid) {
+    for (int x = 0; x < image::kSide; ++x) {
+        const int grey = (77 * row[0][x] + 150 * row[1][x] + 29 * row[2][x]) / 256;
+        for (auto& channel : row) {
+            channel[x] = std::clamp(grey + (channel[x] - grey) * vivid / 256, 0, 255);
         }
     }
 }
@@ -91,6 +93,7 @@ void paint_cut(const RgbPicture& photo, const Cut& cut, const Box& box, RgbPictu
     const int vivid = static_cast<int>(std::lround(cut.colours.saturation * 256));
     const auto samples = static_cast<std::size_t>(photo.width) * 3;
     std::vector<std::uint16_t> blended(samples);
+    PlanarRow planar{};
     for (int y = 0; y < box.height; ++y) {
         const std::uint8_t* upper = photo.rgb.data() + rows[y].at * samples;
         const std::uint8_t* lower = photo.rgb.data() + rows[y].next * samples;
@@ -99,17 +102,21 @@ void paint_cut(const RgbPicture& photo, const Cut& cut, const Box& box, RgbPictu
             blended[i] =
                 static_cast<std::uint16_t>(upper[i] * (256 - share) + lower[i] * share);
         }
-        std::uint8_t* const row =
-            out.rgb.data() + (std::size_t(box.y + y) * image::kSide + box.x) * 3;
         for (int x = 0; x < box.width; ++x) {
             const Tap& tap = columns[x];
             for (int c = 0; c < 3; ++c) {
                 const std::uint32_t value = blended[tap.at * 3 + c] * (256 - tap.share) +
                                             blended[tap.next * 3 + c] * tap.share;
-                row[x * 3 + c] = tables[c][(value + 32768) >> 16];
+                planar[c][x] = tables[c][(value + 32768) >> 16];
             }
         }
-        saturate_row(row, box.width, vivid);
+        saturate(planar, vivid);
+        std::uint8_t* const row =
+            out.rgb.data() + (std::size_t(box.y + y) * image::kSide + box.x) * 3;
+        for (int x = 0; x < box.width; ++x) {
+            for (int c = 0; c < 3; ++c)
+                row[x * 3 + c] = static_cast<std::uint8_t>(planar[c][x]);
+        }
     }
 }
 

@@ -148,6 +148,21 @@ TEST_F(SmallSpeedRun, PageAndPlotAreWellFormed) {
     EXPECT_EQ(plot.elements.at("style"), 1);
 }
 
+TEST(Speed, AnyDifferenceOfAnAnswerIsAMismatch) {
+    const std::vector<image::Match> right = {{ImageId{3}, -50}, {ImageId{1}, -40}};
+    const auto mismatches = [&](std::vector<image::Match> matches, int searched) {
+        const std::vector<image::SearchResult> answers = {{right, 5},
+                                                          {std::move(matches), searched}};
+        return count_mismatches(answers, std::vector{right, right}, 5);
+    };
+    EXPECT_EQ(mismatches(right, 5), 0);
+    EXPECT_EQ(mismatches(right, 4), 1);
+    EXPECT_EQ(mismatches({right[1], right[0]}, 5), 1);
+    EXPECT_EQ(mismatches({right[0]}, 5), 1);
+    EXPECT_EQ(mismatches({right[0], {ImageId{2}, -40}}, 5), 1);
+    EXPECT_EQ(mismatches({right[0], {ImageId{1}, -39}}, 5), 1);
+}
+
 TEST(Speed, CacheGivesTheSameCollection) {
     const haarmony::testing::TemporaryFolder folder;
     SpeedOptions options = small_options();
