@@ -4,10 +4,12 @@
 #include <iostream>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "tests/eval/copies.h"
 #include "tests/eval/figures.h"
 #include "tests/eval/replay.h"
+#include "tests/eval/speed_report.h"
 #include "tests/eval/train_profile.h"
 #include "tests/eval/worker_threads.h"
 
@@ -48,6 +50,31 @@ int run_figures(const FiguresCommand& command) {
     if (!written) return failed(written.error());
     for (const auto& file : *files) std::cout << command.out << '/' << file.name << '\n';
     return 0;
+}
+
+struct SpeedCommand {
+    std::string out;
+    int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    haarmony::eval::SpeedOptions options;
+};
+
+int run_speed(SpeedCommand command) {
+    std::ranges::sort(command.options.images);
+    haarmony::eval::WorkerThreads threads(command.threads);
+    const auto report = haarmony::eval::measure_speed(
+        command.options, threads, [](const std::string& line) {
+            std::cerr << line << '\n';
+        });
+    if (!report) return failed(report.error());
+    std::cout << to_text(*report);
+    if (!command.out.empty()) {
+        const auto files = speed_files(*report);
+        const auto written = haarmony::eval::write_files(files, command.out);
+        if (!written) return failed(written.error());
+        for (const auto& file : files)
+            std::cout << command.out << '/' << file.name << '\n';
+    }
+    return report->mismatches() == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -115,6 +142,37 @@ int main(int argc, char** argv) {
     replay->add_option("--seed", replay_options.seed, "of who is in which database")
         ->capture_default_str();
 
+    SpeedCommand speed_command;
+    CLI::App* speed = app.add_subcommand("speed",
+                                         "times queries beside the plain algorithm and "
+                                         "brute force; exit code 1: an answer "
+                                         "was wrong");
+    speed
+        ->add_option("--images",
+                     speed_command.options.images,
+                     "how many synthetic pictures: one number or several, with commas")
+        ->required()
+        ->delimiter(',')
+        ->check(CLI::Range(haarmony::eval::kMostSpeedQueries, 100'000'000));
+    speed->add_option("--photos",
+                      speed_command.options.photos,
+                      "folder of pictures that they are cut from; else generated ones");
+    speed->add_option("--out", speed_command.out, "folder for speed.html and the tables");
+    speed->add_option("--queries", speed_command.options.queries, "queries of each kind")
+        ->check(CLI::Range(1, haarmony::eval::kMostSpeedQueries))
+        ->capture_default_str();
+    speed->add_option("--seed", speed_command.options.seed, "of everything random")
+        ->capture_default_str();
+    speed->add_option("--cache",
+                      speed_command.options.cache,
+                      "file that keeps the pictures between runs");
+    speed
+        ->add_option("--threads",
+                     speed_command.threads,
+                     "for making pictures and checking answers")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -122,6 +180,7 @@ int main(int argc, char** argv) {
     }
     if (train->parsed())
         return haarmony::eval::train_profile(training, std::cout, std::cerr);
+    if (speed->parsed()) return run_speed(std::move(speed_command));
     if (replay->parsed()) {
         const auto replayed = haarmony::eval::replay_database(replay_options, std::cout);
         return replayed ? 0 : failed(replayed.error());

@@ -110,6 +110,8 @@ std::string page(const std::string& title,
     return html + "</body>\n</html>\n";
 }
 
+std::string_view style_sheet() { return kStyle; }
+
 std::string paragraph(std::string_view text) {
     return element("p", "", escape(text)) + '\n';
 }

@@ -22,6 +22,9 @@ struct Section {
                                const std::string& introduction,
                                const std::vector<Section>& sections);
 
+// The style sheet of the page, for a plot (plot_svg.h) that stands alone.
+[[nodiscard]] std::string_view style_sheet();
+
 [[nodiscard]] std::string paragraph(std::string_view text);
 
 // Panels side by side.
