@@ -1,5 +1,5 @@
 // The searchable collection: immutable sealed segments and one small mutable tail
-// (image search, behind search_arrays.h). Readers take a snapshot and never wait.
+// (image search, behind collection_search.h). Readers take a snapshot and never wait.
 //
 // Shape    segments hold search arrays with the first `index_m` coefficients per channel;
 //          removed pictures are tombstone bits, never a special value.

@@ -1,5 +1,5 @@
 // A question to the index, and its answer (image search, step 5 of 5):
-//   color_space.h -> haar.h -> signature.h -> search_arrays.h -> [query.h]
+//   color_space.h -> haar.h -> signature.h -> segment_layout.h -> [query.h]
 //
 // Scale   a score is equation (4.4) times 100 * 2^24, an exact integer; smaller is better,
 //         ties go to the smaller id. distance() adds the constant that makes it (4.3).

@@ -1,5 +1,6 @@
-// The six search arrays of a block of pictures (image search, step 4 of 5):
-//   haar.h -> truncation.h -> signature.h -> [search_arrays.h] -> query.h
+// The six search arrays as they stand in the dissertation, for a sample of pictures that are
+// all compared with one another: signature.h -> [search_arrays.h] -> symmetric_metric.h. The
+// collection itself is searched in segments (segment_layout.h).
 //
 // Shape   one list per sign, channel and place (kKeyCount of them, see coefficient_key()),
 //         all in one array, list after list; a posting is the slot of a picture within the

@@ -1,6 +1,6 @@
-// What a segment is made of, and where it stands in its bytes: one block of memory that is
-// built once, written to a file as it is, and mapped from there.
-//   search_arrays.h -> [segment_layout.h] -> segment_search.h
+// What a segment is made of, and where it stands in its bytes: the six search arrays of many
+// pictures in one piece of memory without pointers, built once.
+//   signature.h, segment_builder.h -> [segment_layout.h] -> segment_search.h
 //
 // Shape   blocks of 256 neighbouring slots. A list that many pictures share is dense: a row of
 //         bits, one per slot. All others share coarse rows: a bit says that one of the lists

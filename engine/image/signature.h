@@ -1,6 +1,6 @@
 // What is kept of one picture: its average colour and its largest wavelet coefficients
 // (image search, step 3 of 5):
-//   color_space.h -> haar.h -> [signature.h] -> search_arrays.h -> query.h
+//   color_space.h -> haar.h -> [signature.h] -> segment_layout.h -> query.h
 //
 // Shape   three channels of one colour space; per channel up to kMaxCoefficients signed indices in
 //         falling order of magnitude, ties by smaller index, so that every smaller m is

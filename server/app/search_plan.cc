@@ -13,6 +13,9 @@ namespace {
 
 using image::Symmetry;
 
+// Smaller collections are searched before another thread would have woken up.
+constexpr std::int64_t kWorthSharing = 65536;
+
 std::span<const Symmetry> symmetries_of(Orientations orientations) {
     const std::span<const Symmetry> all(image::kSymmetries);
     switch (orientations) {
@@ -105,7 +108,8 @@ Candidates SearchPlan::best(int limit,
                             const image::IdSet* only,
                             Executor* executor) const {
     assert(limit >= 1);
-    return combine_ ? best_of_ranks(limit, only, executor) : best_of_one(limit, only);
+    return combine_ ? best_of_ranks(limit, only, executor)
+                    : best_of_one(limit, only, executor);
 }
 
 std::vector<image::Way> SearchPlan::asked(const Metric& metric) const {
@@ -128,8 +132,11 @@ bool SearchPlan::similar_enough(const Candidate& candidate) const {
     return !min_similarity_ || candidate.similarity >= *min_similarity_;
 }
 
-Candidates SearchPlan::best_of_one(int limit, const image::IdSet* only) const {
+Candidates SearchPlan::best_of_one(int limit,
+                                   const image::IdSet* only,
+                                   Executor* executor) const {
     const std::vector<image::Way> asked_ways = asked(metrics_[0]);
+    if (asked_ways[0].snapshot->stats().images < kWorthSharing) executor = nullptr;
     // Beyond this distance no way calls a picture similar enough.
     std::int64_t heaviest = 0;
     for (const PlannedWay& way : ways())
@@ -139,7 +146,8 @@ Candidates SearchPlan::best_of_one(int limit, const image::IdSet* only) const {
                            (1.0 - min_similarity_.value_or(0.0) + 1e-9);
 
     for (int wanted = limit;;) {
-        const image::BestResult found = image::search_best(asked_ways, {wanted, only});
+        const image::BestResult found =
+            image::search_best(asked_ways, {wanted, only, executor});
         Candidates candidates;
         candidates.searched = found.searched;
         candidates.exhausted = static_cast<int>(found.matches.size()) < wanted;

@@ -87,7 +87,9 @@ class SearchPlan {
 
     SearchPlan() = default;
     [[nodiscard]] std::vector<image::Way> asked(const Metric& metric) const;
-    [[nodiscard]] Candidates best_of_one(int limit, const image::IdSet* only) const;
+    [[nodiscard]] Candidates best_of_one(int limit,
+                                         const image::IdSet* only,
+                                         Executor* executor) const;
     [[nodiscard]] Candidates best_of_ranks(int limit,
                                            const image::IdSet* only,
                                            Executor* executor) const;
