@@ -245,34 +245,29 @@ Result<void> check_dense_ranks(const SegmentView& view, std::span<PictureRanks> 
 
 // A picture's own coefficients stand in order of rank, those of each tier first.
 Result<void> check_own_ranks(const SegmentView& view, std::span<PictureRanks> met) {
-    const int top = view.tiers.top();
-    // Where a key was met last.
+    // The slot in which a key was met last.
     std::vector<std::uint32_t> last(kKeyCount, view.counts.slots);
     std::size_t i = 0;
     for (std::uint32_t slot = 0; slot < view.counts.slots; ++slot) {
         for (int c = 0; c < kChannels; ++c) {
-            const auto& tiers = view.own_counts[slot][std::size_t(c)];
+            const auto& ends = view.own_counts[slot][c];
+            const std::size_t begin = i;
             int least = 0;
-            for (int place = 0; place < tiers[std::size_t(top)]; ++place, ++i) {
-                const std::uint32_t key = coefficient_key(c, view.own[i]);
-                const DirectoryEntry entry(view.directory[key]);
-                if (entry.bits() == 0 || std::exchange(last[key], slot) == slot)
-                    return corrupt(at("coefficient", i, view.own[i]));
-                const std::uint8_t rank = view.own_ranks[i];
-                const int tier =
-                    int(std::ranges::find_if(tiers,
-                                             [&](int count) { return place < count; }) -
-                        tiers.begin());
-                const int below = tier == 0 ? 0 : view.tiers.m[std::size_t(tier) - 1];
-                if (rank < std::max(least, below) ||
-                    rank >= view.tiers.m[std::size_t(tier)])
-                    return corrupt(at("own rank", i, rank));
-                least = rank + 1;
-                // Those of a list that is dense above are among its ranks, and met there.
-                const bool is_dense = entry.dense() != DirectoryEntry::kNone;
-                if (!is_dense &&
-                    !met[slot][std::size_t(c)].add(rank, view.counts.index_m))
-                    return corrupt(at("own rank", i, rank));
+            for (int t = 0; t < view.tiers.count; ++t) {
+                for (; i < begin + ends[t]; ++i) {
+                    const std::uint32_t key = coefficient_key(c, view.own[i]);
+                    const DirectoryEntry entry(view.directory[key]);
+                    if (entry.bits() == 0 || std::exchange(last[key], slot) == slot)
+                        return corrupt(at("coefficient", i, view.own[i]));
+                    const std::uint8_t rank = view.own_ranks[i];
+                    // Those of a list that is dense above were met among its ranks.
+                    const bool met_before = entry.dense() != DirectoryEntry::kNone;
+                    if (rank < least || rank >= view.tiers.m[t] ||
+                        !(met_before || met[slot][c].add(rank, view.counts.index_m)))
+                        return corrupt(at("own rank", i, rank));
+                    least = rank + 1;
+                }
+                least = std::max(least, view.tiers.m[t]);
             }
         }
     }
