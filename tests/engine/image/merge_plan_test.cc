@@ -34,7 +34,10 @@ TEST(MergePlan, TakesAllOfTheSmallestClassThatIsDue) {
 TEST(MergePlan, NeverMakesMoreThanASegmentHolds) {
     EXPECT_EQ(plan_merge(full({40000, 40000, 40000, 40000})), (Plan{0, 1, 2}));
     EXPECT_EQ(plan_merge(full({80000, 80000, 80000, 80000})), Plan{});
-    EXPECT_EQ(plan_merge(full({kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots})), Plan{});
+    EXPECT_EQ(
+        plan_merge(full(
+            {kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots})),
+        Plan{});
     EXPECT_EQ(plan_merge(full({32768, 32768, 32768, 32768})), (Plan{0, 1, 2, 3}));
 }
 
