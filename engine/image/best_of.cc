@@ -22,8 +22,12 @@ void keep_best(std::vector<BestMatch>& matches) {
     std::ranges::sort(matches, {}, [](const BestMatch& match) {
         return std::tuple(match.id, match.distance, match.way);
     });
-    const auto repeated = std::ranges::unique(matches, {}, &BestMatch::id);
-    matches.erase(repeated.begin(), repeated.end());
+    // clang 14, which fuzzes, cannot compile the subrange of std::ranges::unique.
+    const auto repeated = std::unique(
+        matches.begin(), matches.end(), [](const BestMatch& a, const BestMatch& b) {
+            return a.id == b.id;
+        });
+    matches.erase(repeated, matches.end());
 }
 
 }  // namespace

@@ -23,12 +23,17 @@ std::string_view view(boost::beast::string_view text) {
     return {text.data(), text.size()};
 }
 
-bool mentions_http_version(std::string_view request_line) {
-    constexpr std::string_view kName = " HTTP/";
-    const std::size_t at = request_line.rfind(kName);
-    return at != std::string_view::npos && at + kName.size() < request_line.size() &&
-           request_line[at + kName.size()] >= '0' &&
-           request_line[at + kName.size()] <= '9';
+// Whether what stands behind method and target names some version of HTTP. What follows it
+// may not have arrived yet, and so must not matter.
+bool mentions_http_version(std::string_view head) {
+    constexpr std::string_view kName = "HTTP/";
+    for (int words = 0; words < 2; ++words) {
+        const std::size_t space = head.find(' ');
+        if (space == std::string_view::npos) return false;
+        head.remove_prefix(space + 1);
+    }
+    return head.starts_with(kName) && head.size() > kName.size() &&
+           head[kName.size()] >= '0' && head[kName.size()] <= '9';
 }
 
 }  // namespace
@@ -126,8 +131,7 @@ void RequestParser::Impl::fail(boost::beast::error_code error, std::string_view 
         refuse(413,
                "body_too_large",
                "The body is longer than " + std::to_string(limit) + " bytes.");
-    } else if (error == beast::error::bad_version &&
-               mentions_http_version(bytes.substr(0, bytes.find('\r')))) {
+    } else if (error == beast::error::bad_version && mentions_http_version(bytes)) {
         refuse(505, "unsupported_version", "This server speaks HTTP/1.0 and HTTP/1.1.");
     } else {
         refuse(400, "malformed_request", "Malformed request: " + error.message() + ".");

@@ -190,6 +190,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RequestParser, OtherVersionsAre505) {
     EXPECT_EQ(status_of("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"), 505);
     EXPECT_EQ(status_of("GET / HTTP/0.9\r\n\r\n"), 505);
+    // Only where the version stands: what follows may arrive later, and change nothing.
+    EXPECT_EQ(status_of("GET / x HTTP/0.9\r\n\r\n"), 400);
+    EXPECT_EQ(status_of("S S \n8HTTP/ x HTTP/0.9\r\n\r\n"), 400);
 }
 
 TEST(RequestParser, OtherTransferCodingsAre501) {
