@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <numeric>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/image/bit_sums.cc"
@@ -19,13 +20,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = BitSums::Plane;
 
-// What earlier columns carry into one column. The column before gives at most five (its
-// twos, and one for each pair and for the odd one of up to seven rows left over), the second
-// before one (its fours), the third before one for each eight of its rows.
+constexpr std::size_t kLineWords = 8;  // of a line of the cache
+
+// What earlier columns carry into one column. The column before gives at most three (its
+// twos, those of a pair and of an odd row), the second before two (its fours, and those of
+// four rows), the third before one for each eight of its rows.
 class Carries {
   public:
-    // A column adds n <= kMaxRows + 6 + n / 8 rows, so n / 8 + 6 <= kMaxRows / 7 + 7.
-    static constexpr std::size_t kMost = kMaxRows / 7 + 7;
+    // A column adds n <= kMaxRows + 5 + n / 8 rows, so n / 8 + 5 <= kMaxRows / 7 + 6.
+    static constexpr std::size_t kMost = kMaxRows / 7 + 6;
 
     HWY_INLINE std::uint64_t* add() {
         assert(count_ < kMost);
@@ -49,95 +52,116 @@ HWY_INLINE V FullAdd(V& sum, V a, V b) {
     return carry;
 }
 
-// Eight rows join the sums; what is too much goes to `eights` (Harley and Seal's counter):
-// one carry three columns on, where pairs would leave four in the next column.
-HWY_INLINE void AddEight(const std::uint64_t* const* rows,
-                         std::size_t words,
-                         std::uint64_t* HWY_RESTRICT ones,
-                         std::uint64_t* HWY_RESTRICT twos,
-                         std::uint64_t* HWY_RESTRICT fours,
-                         std::uint64_t* HWY_RESTRICT eights) {
+// The planes of one place and the two above it, while rows are added at that place.
+template <class V>
+struct Counter {
+    V ones;
+    V twos;
+    V fours;
+};
+
+// Four rows join; what is too much are fours.
+template <class D, class V>
+HWY_INLINE V
+AddFour(D d, const std::uint64_t* const* rows, std::size_t w, Counter<V>& c) {
+    const auto row = [&](std::size_t i) HWY_ATTR { return hn::LoadU(d, rows[i] + w); };
+    const V two_a = FullAdd(c.ones, row(0), row(1));
+    const V two_b = FullAdd(c.ones, row(2), row(3));
+    return FullAdd(c.twos, two_a, two_b);
+}
+
+// What one place adds up: its rows, and where its carries go, one, two and three places up.
+struct Column {
+    const std::uint64_t* const* rows;
+    std::size_t count;
+    Carries* twos;
+    Carries* fours;
+    Carries* eights;
+};
+
+// Harley and Seal's counter: eight rows leave one carry three places up, where pairs would
+// leave four in the next one.
+void AddColumn(const Column& column, std::size_t words, bool add, std::uint64_t* ones) {
     const hn::CappedTag<std::uint64_t, kBlockWords> d;
+    const std::size_t eights = column.count / 8;
+    const bool four = column.count % 8 >= 4;
+    const std::size_t pairs = column.count % 4 / 2;
+    const bool odd = column.count % 2 != 0;
+    const bool has_twos = column.count >= 4;
+    const bool has_fours = column.count >= 8;
+    std::uint64_t* eight_carries[kMaxRows / 8 + Carries::kMost / 8 + 1];
+    for (std::size_t i = 0; i < eights; ++i) eight_carries[i] = column.eights->add();
+    std::uint64_t* const four_of_four = four ? column.fours->add() : nullptr;
+    std::uint64_t* const fours = has_fours ? column.fours->add() : nullptr;
+    std::uint64_t* const twos = has_twos ? column.twos->add() : nullptr;
+    std::uint64_t* const two_of_pair = pairs != 0 ? column.twos->add() : nullptr;
+    std::uint64_t* const two_of_odd = odd ? column.twos->add() : nullptr;
     for (std::size_t w = 0; w < words; w += hn::Lanes(d)) {
-        auto one = hn::Load(d, ones + w);
-        auto two = hn::Load(d, twos + w);
-        auto four = hn::Load(d, fours + w);
-        const auto row = [&](std::size_t i)
-                             HWY_ATTR { return hn::LoadU(d, rows[i] + w); };
-        const auto two_a = FullAdd(one, row(0), row(1));
-        const auto two_b = FullAdd(one, row(2), row(3));
-        const auto four_a = FullAdd(two, two_a, two_b);
-        const auto two_c = FullAdd(one, row(4), row(5));
-        const auto two_d = FullAdd(one, row(6), row(7));
-        const auto four_b = FullAdd(two, two_c, two_d);
-        hn::Store(FullAdd(four, four_a, four_b), d, eights + w);
-        hn::Store(one, d, ones + w);
-        hn::Store(two, d, twos + w);
-        hn::Store(four, d, fours + w);
+        using V = decltype(hn::Zero(d));
+        Counter<V> c{add ? hn::Load(d, ones + w) : hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        const std::uint64_t* const* rows = column.rows;
+        for (std::size_t i = 0; i < eights; ++i, rows += 8) {
+            const V four_a = AddFour(d, rows, w, c);
+            const V four_b = AddFour(d, rows + 4, w, c);
+            hn::Store(FullAdd(c.fours, four_a, four_b), d, eight_carries[i] + w);
+        }
+        if (four) {
+            hn::Store(AddFour(d, rows, w, c), d, four_of_four + w);
+            rows += 4;
+        }
+        if (pairs != 0) {
+            const V two =
+                FullAdd(c.ones, hn::LoadU(d, rows[0] + w), hn::LoadU(d, rows[1] + w));
+            hn::Store(two, d, two_of_pair + w);
+            rows += 2;
+        }
+        if (odd) {
+            const V row = hn::LoadU(d, rows[0] + w);
+            hn::Store(hn::And(c.ones, row), d, two_of_odd + w);
+            c.ones = hn::Xor(c.ones, row);
+        }
+        hn::Store(c.ones, d, ones + w);
+        if (has_twos) hn::Store(c.twos, d, twos + w);
+        if (has_fours) hn::Store(c.fours, d, fours + w);
     }
 }
 
-// Two rows join the ones; what is too much goes to `twos`.
-HWY_INLINE void AddTwo(const std::uint64_t* a,
-                       const std::uint64_t* b,
-                       std::size_t words,
-                       std::uint64_t* HWY_RESTRICT ones,
-                       std::uint64_t* HWY_RESTRICT twos) {
-    const hn::CappedTag<std::uint64_t, kBlockWords> d;
-    for (std::size_t w = 0; w < words; w += hn::Lanes(d)) {
-        auto one = hn::Load(d, ones + w);
-        hn::Store(FullAdd(one, hn::LoadU(d, a + w), hn::LoadU(d, b + w)), d, twos + w);
-        hn::Store(one, d, ones + w);
+// A share of the rows at each plane: all at once would be more than can be on its way.
+HWY_INLINE void AskFor(const Ahead& ahead,
+                       const std::uint64_t* const* begin,
+                       const std::uint64_t* const* end) {
+    constexpr int kForReading = 0;
+    constexpr int kSecondLevel = 2;  // the first one holds what is being added
+    const std::size_t words = std::size_t(ahead.blocks) * kBlockWords;
+    for (const std::uint64_t* const* row = begin; row < end; ++row) {
+        for (std::size_t w = 0; w < words; w += kLineWords)
+            __builtin_prefetch(*row + ahead.offset + w, kForReading, kSecondLevel);
     }
-}
-
-HWY_INLINE void AddOne(const std::uint64_t* a,
-                       std::size_t words,
-                       std::uint64_t* HWY_RESTRICT ones,
-                       std::uint64_t* HWY_RESTRICT twos) {
-    const hn::CappedTag<std::uint64_t, kBlockWords> d;
-    for (std::size_t w = 0; w < words; w += hn::Lanes(d)) {
-        const auto one = hn::Load(d, ones + w);
-        const auto row = hn::LoadU(d, a + w);
-        hn::Store(hn::And(one, row), d, twos + w);
-        hn::Store(hn::Xor(one, row), d, ones + w);
-    }
-}
-
-HWY_INLINE void Clear(std::size_t words, std::uint64_t* plane) {
-    const hn::CappedTag<std::uint64_t, kBlockWords> d;
-    for (std::size_t w = 0; w < words; w += hn::Lanes(d))
-        hn::Store(hn::Zero(d), d, plane + w);
 }
 
 void AddRows(const BitSumPlan& plan,
              const std::uint64_t* const* rows,
+             std::size_t row_count,
              std::size_t offset,
              int blocks,
              int first_planes,
+             const Ahead& ahead,
              BitSums& sums) {
     const std::size_t words = std::size_t(blocks) * kBlockWords;
     Carries ring[4];  // a column's carries go one, two and three columns on
     const std::uint64_t* in[kMaxRows + Carries::kMost];
     for (int p = 0; p < plan.planes(); ++p) {
+        const auto share = [&](int plane) {
+            return rows + row_count * std::size_t(plane) / std::size_t(plan.planes());
+        };
+        AskFor(ahead, share(p), share(p + 1));
         Carries& here = ring[p % 4];
-        Carries& next = ring[(p + 1) % 4];
         std::size_t count = 0;
         for (const std::uint16_t row : plan.column(p)) in[count++] = rows[row] + offset;
         for (std::size_t i = 0; i < here.count(); ++i) in[count++] = here.get(i);
-        std::uint64_t* const ones = sums.planes[p].data();
-        if (p >= first_planes) Clear(words, ones);
-        std::size_t i = 0;
-        if (count >= 8) {
-            std::uint64_t* const twos = next.add();
-            std::uint64_t* const fours = ring[(p + 2) % 4].add();
-            Clear(words, twos);
-            Clear(words, fours);
-            for (; i + 8 <= count; i += 8)
-                AddEight(&in[i], words, ones, twos, fours, ring[(p + 3) % 4].add());
-        }
-        for (; i + 2 <= count; i += 2) AddTwo(in[i], in[i + 1], words, ones, next.add());
-        if (i < count) AddOne(in[i], words, ones, next.add());
+        const Column column{
+            in, count, &ring[(p + 1) % 4], &ring[(p + 2) % 4], &ring[(p + 3) % 4]};
+        AddColumn(column, words, p < first_planes, sums.planes[p].data());
         here.clear();
     }
 }
@@ -165,6 +189,41 @@ void Unpack(const BitSums& sums, int planes, int block, std::uint16_t* out) {
     }
 }
 
+// The lowest 16 bits of each piece, each four times.
+template <class V>
+HWY_INLINE V Fourfold(V piece) {
+    const hn::DFromV<V> d;
+    const auto apart = [&](auto shift, V bits, std::uint64_t kept) HWY_ATTR {
+        return hn::And(hn::Or(bits, hn::ShiftLeft<shift>(bits)), hn::Set(d, kept));
+    };
+    V bits = apart(std::integral_constant<int, 24>(), piece, 0x000000FF000000FFU);
+    bits = apart(std::integral_constant<int, 12>(), bits, 0x000F000F000F000FU);
+    bits = apart(std::integral_constant<int, 6>(), bits, 0x0303030303030303U);
+    bits = apart(std::integral_constant<int, 3>(), bits, 0x1111111111111111U);
+    return hn::Sub(hn::ShiftLeft<4>(bits), bits);
+}
+
+void Spread(const BitSums& groups,
+            int planes,
+            int from,
+            int quarter,
+            int to,
+            BitSums& out) {
+    const hn::CappedTag<std::uint64_t, kBlockWords> d;
+    alignas(64) static constexpr std::uint64_t kShift[kBlockWords] = {0, 16, 32, 48};
+    const auto lowest = hn::Set(d, std::uint64_t{0xFFFF});
+    const std::size_t at = std::size_t(from) * kBlockWords + std::size_t(quarter);
+    for (int p = 0; p < planes; ++p) {
+        const auto word = hn::Set(d, groups.planes[p][at]);
+        std::uint64_t* const target =
+            out.planes[p].data() + std::size_t(to) * kBlockWords;
+        for (std::size_t i = 0; i < kBlockWords; i += hn::Lanes(d)) {
+            const auto piece = hn::And(hn::Shr(word, hn::Load(d, kShift + i)), lowest);
+            hn::Store(Fourfold(piece), d, target + i);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace haarmony::image::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -173,6 +232,7 @@ HWY_AFTER_NAMESPACE();
 namespace haarmony::image {
 
 HWY_EXPORT(AddRows);
+HWY_EXPORT(Spread);
 HWY_EXPORT(Unpack);
 
 BitSumPlan::BitSumPlan(std::span<const std::uint32_t> weights,
@@ -197,11 +257,12 @@ void add_rows(const BitSumPlan& plan,
               std::size_t offset,
               int blocks,
               int first_planes,
+              const Ahead& ahead,
               BitSums& sums) {
     assert(blocks >= 1 && blocks <= kBlocksAtOnce);
     assert(first_planes <= plan.planes());
     HWY_DYNAMIC_DISPATCH(AddRows)
-    (plan, rows.data(), offset, blocks, first_planes, sums);
+    (plan, rows.data(), rows.size(), offset, blocks, first_planes, ahead, sums);
 }
 
 void add_rows_scalar(const BitSumPlan& plan,
@@ -244,21 +305,6 @@ BlockBits at_least(const BitSums& sums, int planes_used, int block, std::uint32_
     return result;
 }
 
-namespace {
-
-// Each bit of a byte, four times over.
-constexpr std::array<std::uint32_t, 256> kFourfold = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-        for (int bit = 0; bit < 8; ++bit) {
-            if ((byte >> bit & 1U) != 0) table[byte] |= 0xFU << (4 * bit);
-        }
-    }
-    return table;
-}();
-
-}  // namespace
-
 void spread(const BitSums& groups,
             int planes_used,
             int from,
@@ -266,17 +312,7 @@ void spread(const BitSums& groups,
             int to,
             BitSums& out) {
     assert(quarter >= 0 && quarter < 4);
-    const std::size_t source = std::size_t(from) * kBlockWords + std::size_t(quarter);
-    for (int p = 0; p < planes_used; ++p) {
-        const std::uint64_t word = groups.planes[p][source];
-        std::uint64_t* const target =
-            out.planes[p].data() + std::size_t(to) * kBlockWords;
-        for (int i = 0; i < kBlockWords; ++i) {
-            const std::uint64_t low = kFourfold[word >> (16 * i) & 0xFFU];
-            const std::uint64_t high = kFourfold[word >> (16 * i + 8) & 0xFFU];
-            target[i] = low | high << 32;
-        }
-    }
+    HWY_DYNAMIC_DISPATCH(Spread)(groups, planes_used, from, quarter, to, out);
 }
 
 void unpack(const BitSums& sums, int planes_used, int block, UnpackedSums& out) {

@@ -71,6 +71,12 @@ struct BitSums {
     }
 };
 
+// What will be summed next: the memory is asked for its rows meanwhile.
+struct Ahead {
+    std::size_t offset = 0;
+    int blocks = 0;  // 0: nothing
+};
+
 // Adds to the sums of `blocks` neighbouring blocks the weights of their rows, of which row r
 // begins at rows[r] + offset. `sums` comes with what is added to, in planes
 // [0, first_planes), and has planes [0, plan.planes()) afterwards; nothing else of it is
@@ -83,6 +89,7 @@ void add_rows(const BitSumPlan& plan,
               std::size_t offset,
               int blocks,
               int first_planes,
+              const Ahead& ahead,
               BitSums& sums);
 
 // The same, word by word: the scalar twin of the vector code, identical in every bit.

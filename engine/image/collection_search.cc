@@ -53,10 +53,13 @@ std::int64_t count_bits(std::span<const std::uint64_t> words) {
 // One segment's part of a search.
 class PartSearch {
   public:
-    PartSearch(const LiveSegment& part, const Query& query, const IdSet* only)
+    PartSearch(const LiveSegment& part,
+               const Query& query,
+               const Rounding& rounding,
+               const IdSet* only)
         : allowed_(allowed_slots(part, only)),
           live_(allowed_.empty() ? part.segment->size() : count_bits(allowed_)),
-          search_(part.segment->view(), query, allowed_) {
+          search_(part.segment->view(), query, rounding, allowed_) {
         for (int block = 0; block < search_.blocks(); ++block)
             bounds_.push_back(has_allowed(block) ? search_.bound(block) : kNever);
     }
@@ -64,7 +67,6 @@ class PartSearch {
     static constexpr Score kNever = std::numeric_limits<Score>::max();
 
     [[nodiscard]] std::int64_t live() const { return live_; }
-    [[nodiscard]] const SegmentSearch& search() const { return search_; }
     // No picture of the block that may be found has a smaller score; kNever where there is
     // none, or once it has been visited.
     [[nodiscard]] std::span<const Score> bounds() const { return bounds_; }
@@ -73,7 +75,8 @@ class PartSearch {
         bounds_[std::size_t(block)] = kNever;
         Visitor visitor(search_, top, worst);
         constexpr bool kDue = true;
-        visitor.visit(block, {&kDue, 1});
+        visitor.visit(block, {&kDue, 1}, {});
+        visitor.finish();
         effort += visitor.effort();
     }
 
@@ -81,12 +84,15 @@ class PartSearch {
     void visit_rest(TopK& top, WorstKept& worst, bool exhaustive, SearchEffort& effort) {
         Visitor visitor(search_, top, worst);
         Run run = next_run(0, worst, exhaustive);
-        while (run.count > 0) {
-            const Run ahead = next_run(run.first + run.count, worst, exhaustive);
-            if (ahead.count > 0) search_.prefetch(ahead.first, ahead.count);
-            visitor.visit(run.first, std::span(run.due).first(std::size_t(run.count)));
+        while (run.blocks.count > 0) {
+            const Run ahead =
+                next_run(run.blocks.first + run.blocks.count, worst, exhaustive);
+            visitor.visit(run.blocks.first,
+                          std::span(run.due).first(std::size_t(run.blocks.count)),
+                          ahead.blocks);
             run = ahead;
         }
+        visitor.finish();
         effort += visitor.effort();
         effort.blocks += search_.blocks();
     }
@@ -101,8 +107,7 @@ class PartSearch {
 
     // Neighbouring blocks of one group of kBlocksAtOnce, the first and the last of them due.
     struct Run {
-        int first = 0;
-        int count = 0;
+        Blocks blocks;
         std::array<bool, kBlocksAtOnce> due{};
     };
     // The next from `block` on; none where its count is 0.
@@ -113,13 +118,13 @@ class PartSearch {
         };
         Run run;
         while (block < search_.blocks() && !is_due(block)) ++block;
-        run.first = block;
+        run.blocks.first = block;
         const int end =
             std::min(search_.blocks(), (block / kBlocksAtOnce + 1) * kBlocksAtOnce);
         for (; block < end; ++block) {
             if (!is_due(block)) continue;
-            run.due[std::size_t(block - run.first)] = true;
-            run.count = block - run.first + 1;
+            run.due[std::size_t(block - run.blocks.first)] = true;
+            run.blocks.count = block - run.blocks.first + 1;
         }
         return run;
     }
@@ -165,9 +170,6 @@ class Promises {
         heap_.pop_back();
         return best;
     }
-    [[nodiscard]] const Promise* peek() const {
-        return heap_.empty() ? nullptr : heap_.data();
-    }
 
   private:
     std::vector<Promise> heap_;
@@ -191,9 +193,10 @@ SearchResult search(const Collection& collection,
     const std::vector<Match> newest = score_tail(collection, query, scope.only);
     result.searched = std::int64_t(newest.size());
 
+    const Rounding rounding(query);
     std::vector<std::optional<PartSearch>> parts(collection.segments.size());
     run(scope.executor, parts.size(), [&](std::size_t p) {
-        parts[p].emplace(collection.segments[p], query, scope.only);
+        parts[p].emplace(collection.segments[p], query, rounding, scope.only);
     });
     for (const auto& part : parts) result.searched += part->live();
     if (scope.limit == 0) return result;
@@ -207,8 +210,6 @@ SearchResult search(const Collection& collection,
         for (std::size_t i = 0; i < kFirstBlocks; ++i) {
             const std::optional<Promise> best = promises.next();
             if (!best || best->bound > worst.get()) break;
-            if (const Promise* ahead = promises.peek())
-                parts[ahead->part]->search().prefetch(ahead->block, 1);
             parts[best->part]->visit_first(best->block, top, worst, result.effort);
         }
     }
@@ -230,9 +231,10 @@ std::vector<Match> score_all(const Collection& collection,
                              const Query& query,
                              const IdSet* only) {
     std::vector<Match> matches = score_tail(collection, query, only);
+    const Rounding rounding(query);
     for (const LiveSegment& part : collection.segments) {
         const std::vector<std::uint64_t> allowed = allowed_slots(part, only);
-        const SegmentSearch prepared(part.segment->view(), query, allowed);
+        const SegmentSearch prepared(part.segment->view(), query, rounding, allowed);
         prepared.score_all(matches);
     }
     return matches;

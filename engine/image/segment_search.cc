@@ -13,20 +13,6 @@
 namespace haarmony::image {
 namespace {
 
-// Sums of rounded weights stay between these: fine enough that few pictures pass by
-// rounding, coarse enough that weights have few one-bits.
-constexpr std::int64_t kMostSteps = 1024;
-constexpr std::int64_t kFewestSteps = 200;
-constexpr std::int64_t kUnitsTried = 16;
-// What a share lost by rounding costs in pictures compared, in shares of the summing.
-constexpr double kCostOfRounding = 40.0;
-
-constexpr std::size_t kWordsPerLine = 8;
-// In units; no sum of units comes near it.
-constexpr std::uint32_t kOutOfReach = std::uint32_t{1} << 31;
-
-std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
-
 // The slots of a block that exist.
 BlockBits existing(int slots, int block) {
     BlockBits bits;
@@ -48,133 +34,77 @@ void for_each_bit(const BlockBits& bits, const Visit& visit) {
     }
 }
 
-bool is_empty(const BlockBits& bits) {
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : bits) any |= word;
-    return any == 0;
-}
-
-bool test(const std::uint64_t* row, std::size_t slot) {
-    return (row[slot / 64] >> (slot % 64) & 1U) != 0;
-}
-
 }  // namespace
 
 SegmentSearch::SegmentSearch(const SegmentView& view,
                              const Query& query,
+                             const Rounding& rounding,
                              std::span<const std::uint64_t> allowed)
     : view_(&view),
       query_(&query),
+      rounding_(&rounding),
       allowed_(allowed),
       tier_(view.tiers.holding(query.m)),
       exact_(view.tiers.m[tier_] == query.m) {
     assert(query.m >= 1 && query.m <= int(view.counts.index_m));
     assert(allowed.empty() || allowed.size() == view.counts.block_words());
     find_rows();
-    plan_sums();
     bound_blocks();
 }
 
-std::vector<std::uint32_t> SegmentSearch::Rows::in_units(std::int64_t unit) const {
-    std::vector<std::uint32_t> units;
-    units.reserve(rows.size());
-    for (const Row& row : rows)
-        units.push_back(static_cast<std::uint32_t>(ceil_divide(row.weight, unit)));
-    return units;
-}
-
-void SegmentSearch::Rows::make_plan(std::int64_t unit, std::uint32_t before) {
-    const std::vector<std::uint32_t> units = in_units(unit);
-    most = std::accumulate(units.begin(), units.end(), 0U);
-    plan = BitSumPlan(units, before);
-    for (const Row& row : rows) words.push_back(row.words);
-}
-
-void SegmentSearch::OwnTerms::add(std::uint32_t key, std::int32_t weight) {
-    std::size_t at = place(key);
-    while (keys_[at] != kFree && keys_[at] != key) at = (at + 1) % kSize;
-    keys_[at] = key;
-    weights_[at] += weight;
+void SegmentSearch::Rows::add(const std::uint64_t* row, std::uint32_t its_units) {
+    words.push_back(row);
+    units.push_back(its_units);
+    most += its_units;
 }
 
 void SegmentSearch::find_rows() {
     const SegmentCounts& counts = view_->counts;
     for (const QueryTerm& term : query_->terms) {
         if (term.weight == 0) continue;
+        const std::uint32_t units = rounding_->units(term.weight);
         const DirectoryEntry entry(view_->directory[term.key]);
-        Row row;
-        row.weight = term.weight;
         if (entry.dense() != DirectoryEntry::kNone) {
+            const auto list = static_cast<std::uint32_t>(entry.dense());
             int tier = tier_;
-            while (entry.dense() >= int(counts.dense[tier])) ++tier;
-            row.list = entry.dense();
-            row.hint = tier != tier_;
-            const auto list = static_cast<std::size_t>(entry.dense());
-            row.words = view_->rows[tier].data() + list * counts.row_words();
-            row.presence = view_->presence[tier].data() + list * counts.presence_words();
-            fine_.rows.push_back(row);
-        } else if (entry.coarse() != DirectoryEntry::kNone) {
-            row.hint = true;
-            row.words = view_->coarse_rows.data() +
-                        std::size_t(entry.coarse()) * counts.coarse_row_words();
-            coarse_.rows.push_back(row);
-        }
-        if (row.hint) own_.add(term.key, term.weight);
-    }
-}
-
-// The unit that makes summing cheap: few one-bits in all, little lost by rounding up.
-void SegmentSearch::choose_unit() {
-    std::int64_t sum = 0;
-    for (const Rows* rows : {&fine_, &coarse_}) {
-        for (const Row& row : rows->rows) sum += row.weight;
-    }
-    double best_cost = std::numeric_limits<double>::max();
-    const std::int64_t finest = std::max<std::int64_t>(1, sum / kMostSteps);
-    const std::int64_t coarsest = std::max<std::int64_t>(1, sum / kFewestSteps);
-    const std::int64_t step =
-        std::max<std::int64_t>(1, (coarsest - finest) / kUnitsTried);
-    for (std::int64_t unit = finest; unit <= coarsest; unit += step) {
-        std::int64_t ones = 0;
-        std::int64_t rounded = 0;
-        for (const Rows* rows : {&fine_, &coarse_}) {
-            for (const std::uint32_t units : rows->in_units(unit)) {
-                ones += std::popcount(units);
-                rounded += units * unit;
+            while (list >= counts.dense[tier]) ++tier;
+            const std::uint64_t* const words =
+                view_->rows[tier].data() + list * counts.row_words();
+            fine_.add(words, units);
+            presence_.push_back(view_->presence[tier].data() +
+                                list * counts.presence_words());
+            hwy::Prefetch(presence_.back());
+            // Bits of a tier above are of too many pictures: these know better.
+            if (tier == tier_) {
+                dense_.push_back({words, term.weight, list});
+            } else {
+                own_.add(term.key, term.weight);
             }
-        }
-        const double lost = sum == 0 ? 0.0 : double(rounded - sum) / double(sum);
-        const double cost = double(ones) * (1.0 + kCostOfRounding * lost);
-        if (cost < best_cost) {
-            best_cost = cost;
-            unit_ = unit;
+        } else if (entry.coarse() != DirectoryEntry::kNone) {
+            coarse_.add(view_->coarse_rows.data() +
+                            std::size_t(entry.coarse()) * counts.coarse_row_words(),
+                        units);
+            own_.add(term.key, term.weight);
         }
     }
-}
-
-void SegmentSearch::plan_sums() {
-    choose_unit();
-    coarse_.make_plan(unit_, 0);
-    fine_.make_plan(unit_, coarse_.most);
+    coarse_.plan = BitSumPlan(coarse_.units, 0);
+    fine_.plan = BitSumPlan(fine_.units, coarse_.most);
 }
 
 // The rows of presence have a bit for each block: blocks are added up as pictures are.
 void SegmentSearch::bound_blocks() {
     bounds_.resize(std::size_t(blocks()));
-    std::vector<const std::uint64_t*> presence;
-    presence.reserve(fine_.rows.size());
-    for (const Row& row : fine_.rows) presence.push_back(row.presence);
     BitSums sums;
     UnpackedSums unpacked;
     for (std::size_t first = 0; first < bounds_.size(); first += kBlockSlots) {
-        add_rows(fine_.plan, presence, first / 64, 1, 0, sums);
+        add_rows(fine_.plan, presence_, first / 64, 1, 0, {}, sums);
         unpack(sums, fine_.plan.planes(), 0, unpacked);
         const std::size_t count =
             std::min(bounds_.size() - first, std::size_t{kBlockSlots});
         for (std::size_t i = 0; i < count; ++i) {
             bounds_[first + i] =
                 lowest_terms_of_averages(first + i) -
-                (std::int64_t{unpacked[i]} + coarse_.most) * unit_ * kAverageOne;
+                rounding_->weight(unpacked[i] + coarse_.most) * kAverageOne;
         }
     }
 }
@@ -202,29 +132,21 @@ BlockBits SegmentSearch::allowed_in(int block) const {
     return bits;
 }
 
-void SegmentSearch::prefetch(int first, int count) const {
-    const std::size_t begin = std::size_t(first) * kBlockWords;
-    const std::size_t end = begin + std::size_t(count) * kBlockWords;
-    for (const std::uint64_t* row : fine_.words) {
-        for (std::size_t word = begin; word < end; word += kWordsPerLine)
-            hwy::Prefetch(row + word);
-    }
-}
-
 std::int64_t SegmentSearch::matches(std::size_t slot) const {
     return dense_matches(slot) + own_matches(slot);
 }
 
 std::int64_t SegmentSearch::dense_matches(std::size_t slot) const {
     std::int64_t matched = 0;
-    for (const Row& row : fine_.rows) {
-        if (row.hint || !test(row.words, slot)) continue;
-        if (!exact_) {
-            const std::size_t place =
-                dense_rank_place(*view_, std::size_t(row.list), slot);
-            if (view_->dense_ranks[place] >= query_->m) continue;
+    for (const DenseTerm& term : dense_) {
+        const auto bit =
+            static_cast<std::int32_t>(term.words[slot / 64] >> (slot % 64) & 1U);
+        if (exact_) {
+            matched += term.weight & -bit;
+        } else if (bit != 0) {
+            const std::size_t place = dense_rank_place(*view_, term.list, slot);
+            if (view_->dense_ranks[place] < query_->m) matched += term.weight;
         }
-        matched += row.weight;
     }
     return matched;
 }
@@ -237,7 +159,7 @@ std::int64_t SegmentSearch::own_matches(std::size_t slot) const {
         const std::size_t end = begin + counts[tier_];
         for (std::size_t i = begin; i < end; ++i) {
             if (!exact_ && view_->own_ranks[i] >= query_->m) break;
-            matched += own_.weight(coefficient_key(c, view_->own[i]));
+            matched += own_.of(coefficient_key(c, view_->own[i]));
         }
         begin += counts[std::size_t(view_->tiers.top())];
     }
@@ -257,101 +179,126 @@ void SegmentSearch::score_all(std::vector<Match>& out) const {
 Visitor::Visitor(const SegmentSearch& search, TopK& top, WorstKept& worst)
     : search_(search), top_(top), worst_(worst) {}
 
-// The smallest matched weight with which a picture of those terms is not worse than what is
-// kept; ties are not worse.
-std::int64_t Visitor::matches_needed(Score averages) const {
+// The fewest units with which a picture of the block can be not worse than what is kept; ties
+// are not worse.
+std::uint32_t Visitor::units_needed(int block) const {
     const Score worst = worst_.get();
     if (worst == WorstKept::kAny) return 0;
+    const Score averages = search_.lowest_terms_of_averages(std::size_t(block));
     // Rounded up: the shift of a negative number rounds down.
-    return (averages - worst + kAverageOne - 1) >> kAverageFractionBits;
-}
-
-// In units; what no sum of units below it can do.
-std::uint32_t Visitor::units_needed(int block) const {
     const std::int64_t needed =
-        matches_needed(search_.lowest_terms_of_averages(std::size_t(block)));
-    if (needed <= 0) return 0;
-    return static_cast<std::uint32_t>(
-        std::min<std::int64_t>(ceil_divide(needed, search_.unit_), kOutOfReach));
+        (averages - worst + kAverageOne - 1) >> kAverageFractionBits;
+    return search_.rounding_->units_for(needed);
 }
 
-void Visitor::visit(int first, std::span<const bool> due) {
+void Visitor::visit(int first, std::span<const bool> due, const Blocks& ahead) {
     const int count = static_cast<int>(due.size());
     assert(count >= 1 && first / kBlocksAtOnce == (first + count - 1) / kBlocksAtOnce);
-    begin_with_coarse(first, count);
+    begin_with_coarse({first, count}, ahead);
     add_rows(search_.fine_.plan,
              search_.fine_.words,
              std::size_t(first) * kBlockWords,
              count,
              search_.coarse_.plan.planes(),
+             {std::size_t(ahead.first) * kBlockWords, ahead.count},
              sums_);
-    effort_.rows += std::int64_t(due.size() * search_.fine_.rows.size());
+    effort_.rows += std::int64_t(due.size() * search_.fine_.words.size());
+    compare_candidates();
+    judge_reached();
     for (int i = 0; i < count; ++i) {
         if (!due[std::size_t(i)]) continue;
         ++effort_.blocks_visited;
-        BlockBits reached =
-            at_least(sums_, search_.fine_.plan.planes(), i, units_needed(first + i));
-        const BlockBits allowed = search_.allowed_in(first + i);
-        for (int word = 0; word < kBlockWords; ++word) reached[word] &= allowed[word];
-        if (!is_empty(reached)) compare_all(first, first + i, reached);
+        reach(first, first + i);
     }
 }
 
+void Visitor::finish() {
+    compare_candidates();
+    judge_reached();
+    compare_candidates();
+}
+
 // A coarse row has the bits of kCoarseSlots blocks where a fine one has those of one.
-void Visitor::begin_with_coarse(int first, int count) {
-    const int begin = first / kCoarseSlots;
-    const int pieces = (first + count - 1) / kCoarseSlots + 1 - begin;
+void Visitor::begin_with_coarse(const Blocks& now, const Blocks& ahead) {
+    const auto piece_of = [](int block) { return block / kCoarseSlots; };
+    const auto pieces = [&](const Blocks& blocks) {
+        return blocks.count == 0 ? 0
+                                 : piece_of(blocks.first + blocks.count - 1) + 1 -
+                                       piece_of(blocks.first);
+    };
+    const auto offset = [&](const Blocks& blocks) {
+        return std::size_t(piece_of(blocks.first)) * kBlockWords;
+    };
     const int planes = search_.coarse_.plan.planes();
     add_rows(search_.coarse_.plan,
              search_.coarse_.words,
-             std::size_t(begin) * kBlockWords,
-             pieces,
+             offset(now),
+             pieces(now),
              0,
+             {offset(ahead), pieces(ahead)},
              coarse_sums_);
-    effort_.rows += pieces * std::int64_t(search_.coarse_.rows.size());
-    for (int i = 0; i < count; ++i) {
-        const int block = first + i;
+    effort_.rows += pieces(now) * std::int64_t(search_.coarse_.words.size());
+    for (int i = 0; i < now.count; ++i) {
+        const int block = now.first + i;
         spread(coarse_sums_,
                planes,
-               block / kCoarseSlots - begin,
+               piece_of(block) - piece_of(now.first),
                block % kCoarseSlots,
                i,
                sums_);
     }
 }
 
-// Step by step, so that what one step reads is asked for in the step before.
-void Visitor::compare_all(int first, int block, const BlockBits& reached) {
+// The pictures of a block whose matches may be enough.
+void Visitor::reach(int first, int block) {
+    const int planes = search_.fine_.plan.planes();
+    BlockBits bits = at_least(sums_, planes, block - first, units_needed(block));
+    const BlockBits allowed = search_.allowed_in(block);
+    for (int word = 0; word < kBlockWords; ++word) bits[word] &= allowed[word];
     const SegmentView& view = *search_.view_;
-    const std::size_t before = std::size_t(block) * kBlockSlots;
-    for_each_bit(reached, [&](std::uint32_t in_block) {
-        hwy::Prefetch(&view.terms[before + in_block]);
-        hwy::Prefetch(&view.own_begin[before + in_block]);
-        hwy::Prefetch(&view.own_counts[before + in_block]);
+    for_each_bit(bits, [&](std::uint32_t in_block) {
+        const auto slot = static_cast<std::uint32_t>(block) * kBlockSlots + in_block;
+        hwy::Prefetch(&view.terms[slot]);
+        hwy::Prefetch(&view.own_begin[slot]);
+        hwy::Prefetch(&view.own_counts[slot]);
+        const int in_sums = (block - first) * kBlockSlots + int(in_block);
+        reached_.push_back({slot, sums_.at(in_sums, planes)});
     });
-    candidates_.clear();
-    const int in_sums = (block - first) * kBlockSlots;
-    for_each_bit(reached, [&](std::uint32_t in_block) {
-        const std::size_t slot = before + in_block;
-        const Score averages = search_.terms_of_averages(slot);
-        const std::int64_t units =
-            sums_.at(in_sums + int(in_block), search_.fine_.plan.planes());
-        if (units * search_.unit_ < matches_needed(averages)) return;
-        candidates_.push_back({slot, averages});
-        constexpr std::size_t kPerLine = 32;
-        for (std::size_t i = view.own_begin[slot]; i < view.own_begin[slot + 1];
-             i += kPerLine)
-            hwy::Prefetch(&view.own[i]);
-    });
-    for (const Candidate& candidate : candidates_)
-        compare(candidate.slot, candidate.averages);
 }
 
-void Visitor::compare(std::size_t slot, Score averages) {
+// Of these, the pictures that may be among the best if one knows their averages.
+void Visitor::judge_reached() {
+    const SegmentView& view = *search_.view_;
+    for (const Reached& reached : reached_) {
+        const Score averages = search_.terms_of_averages(reached.slot);
+        const Score bound =
+            averages - search_.rounding_->weight(reached.units) * kAverageOne;
+        if (bound > worst_.get()) continue;
+        candidates_.push_back({bound, averages, reached.slot});
+        constexpr std::size_t kPerLine = 32;
+        const std::size_t end = view.own_begin[reached.slot + 1];
+        for (std::size_t i = view.own_begin[reached.slot]; i < end; i += kPerLine)
+            hwy::Prefetch(&view.own[i]);
+    }
+    reached_.clear();
+}
+
+// The most promising first, so that the others need not be looked at.
+void Visitor::compare_candidates() {
+    std::ranges::sort(candidates_, {}, &Candidate::bound);
+    for (const Candidate& candidate : candidates_) {
+        if (candidate.bound > worst_.get()) break;
+        compare(candidate);
+    }
+    candidates_.clear();
+}
+
+void Visitor::compare(const Candidate& candidate) {
     ++effort_.compared;
-    const Score score = averages - search_.matches(slot) * kAverageOne;
+    const Score score =
+        candidate.averages - search_.matches(candidate.slot) * kAverageOne;
     if (!top_.admits(score)) return;
-    top_.offer({ImageId{search_.view_->ids[slot]}, score});
+    top_.offer({ImageId{search_.view_->ids[candidate.slot]}, score});
     if (top_.full()) worst_.lower_to(top_.worst());
 }
 

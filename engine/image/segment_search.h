@@ -23,7 +23,9 @@
 
 #include "engine/image/bit_sums.h"
 #include "engine/image/query.h"
+#include "engine/image/rounding.h"
 #include "engine/image/segment_layout.h"
+#include "engine/image/term_weights.h"
 #include "engine/image/top_k.h"
 
 namespace haarmony::image {
@@ -48,65 +50,39 @@ class WorstKept {
 class SegmentSearch {
   public:
     // The view, the query and `allowed` outlive this. `allowed` has a bit for each slot that
-    // may be found, in whole blocks; empty: all slots.
+    // may be found, in whole blocks; empty: all slots. `rounding` is the query's.
     // Requires: 1 <= query.m <= index_m.
     SegmentSearch(const SegmentView& view,
                   const Query& query,
+                  const Rounding& rounding,
                   std::span<const std::uint64_t> allowed);
 
     [[nodiscard]] int blocks() const { return view_->counts.blocks(); }
     // No picture of the block has a smaller score.
     [[nodiscard]] Score bound(int block) const { return bounds_[std::size_t(block)]; }
-    // Asks the memory for what visiting the blocks reads first.
-    void prefetch(int first, int count) const;
-
     // Appends the exact scores of all allowed pictures, in the order of slots.
     void score_all(std::vector<Match>& out) const;
 
   private:
     friend class Visitor;
 
-    // A row of bits and what a bit of it is worth.
-    struct Row {
-        const std::uint64_t* words = nullptr;
-        const std::uint64_t* presence = nullptr;  // null: of a coarse row
-        std::int32_t weight = 0;
-        int list = 0;       // the dense one
-        bool hint = false;  // the bit may be of another list or tier: the picture decides
-    };
-    // What the pictures themselves are asked for: a small hash table.
-    class OwnTerms {
-      public:
-        void add(std::uint32_t key, std::int32_t weight);
-        [[nodiscard]] std::int32_t weight(std::uint32_t key) const {
-            for (std::size_t at = place(key);; at = (at + 1) % kSize) {
-                if (keys_[at] == key) return weights_[at];
-                if (keys_[at] == kFree) return 0;
-            }
-        }
-
-      private:
-        static constexpr std::size_t kSize = 1024;  // three times as many as there may be
-        static constexpr std::uint32_t kFree = 0;   // no key: the average's place
-        static std::size_t place(std::uint32_t key) { return (key * 0x9E3779B1U) >> 22; }
-        std::array<std::uint32_t, kSize> keys_{};
-        std::array<std::int32_t, kSize> weights_{};
-    };
-    // Rows that are added up together.
+    // Rows of bits that are added up together, and what a bit of each is worth at most.
     struct Rows {
-        std::vector<Row> rows;
         std::vector<const std::uint64_t*> words;
+        std::vector<std::uint32_t> units;
         BitSumPlan plan;
         std::uint32_t most = 0;  // units of all of them
 
-        [[nodiscard]] std::vector<std::uint32_t> in_units(std::int64_t unit) const;
-        // `before`: units that the sums may have already.
-        void make_plan(std::int64_t unit, std::uint32_t before);
+        void add(const std::uint64_t* row, std::uint32_t its_units);
+    };
+    // A list whose bits are those of the query's tier.
+    struct DenseTerm {
+        const std::uint64_t* words = nullptr;
+        std::int32_t weight = 0;
+        std::uint32_t list = 0;
     };
 
     void find_rows();
-    void choose_unit();
-    void plan_sums();
     void bound_blocks();
     [[nodiscard]] BlockBits allowed_in(int block) const;
     // Of the average colour and the shape: what the score has beside the matches.
@@ -119,37 +95,61 @@ class SegmentSearch {
 
     const SegmentView* view_;
     const Query* query_;
+    const Rounding* rounding_;
     std::span<const std::uint64_t> allowed_;
     int tier_ = 0;
     bool exact_ = false;  // the tier's lists are those of query.m; else ranks decide
 
-    Rows fine_;    // one bit for each slot
-    Rows coarse_;  // one bit for kCoarseSlots slots
-    OwnTerms own_;
-    // Weights are added up in units, rounded up.
-    std::int64_t unit_ = 1;
+    Rows fine_;                                   // one bit for each slot
+    Rows coarse_;                                 // one bit for kCoarseSlots slots
+    std::vector<const std::uint64_t*> presence_;  // of the fine rows
+    std::vector<DenseTerm> dense_;
+    TermWeights own_;            // what the pictures themselves are asked for
     std::vector<Score> bounds_;  // [block]
 };
 
-// Visits blocks of one segment and offers what it finds.
+// Neighbouring blocks.
+struct Blocks {
+    int first = 0;
+    int count = 0;
+};
+
+// Visits blocks of one segment and offers what it finds. What memory has to fetch for a
+// picture is asked for one visit before it is read.
 class Visitor {
   public:
     // All outlive the visitor.
     Visitor(const SegmentSearch& search, TopK& top, WorstKept& worst);
 
-    // Compares the pictures of neighbouring blocks, which all begin at `due`: whether each of
-    // them is to be looked at. Together they cost much less than one by one.
+    // Adds up the rows of neighbouring blocks, which all begin at `due`: whether the
+    // pictures of each are to be looked at. Together they cost much less than one by one.
+    // `ahead`: what is visited next, if anything.
     // Requires: 1 <= due.size() <= kBlocksAtOnce; all in one group of that many.
-    void visit(int first, std::span<const bool> due);
+    void visit(int first, std::span<const bool> due, const Blocks& ahead);
+
+    // Compares what the visits so far have left.
+    void finish();
 
     [[nodiscard]] const SearchEffort& effort() const { return effort_; }
 
   private:
-    [[nodiscard]] std::int64_t matches_needed(Score averages) const;
+    // A picture on its way: first its matches alone are bounded, then its whole score.
+    struct Reached {
+        std::uint32_t slot = 0;
+        std::uint32_t units = 0;
+    };
+    struct Candidate {
+        Score bound = 0;
+        Score averages = 0;
+        std::size_t slot = 0;
+    };
+
     [[nodiscard]] std::uint32_t units_needed(int block) const;
-    void begin_with_coarse(int first, int count);
-    void compare_all(int first, int block, const BlockBits& reached);
-    void compare(std::size_t slot, Score averages);
+    void begin_with_coarse(const Blocks& now, const Blocks& ahead);
+    void reach(int first, int block);
+    void judge_reached();
+    void compare_candidates();
+    void compare(const Candidate& candidate);
 
     const SegmentSearch& search_;
     TopK& top_;
@@ -157,10 +157,7 @@ class Visitor {
     SearchEffort effort_;
     BitSums sums_;
     BitSums coarse_sums_;
-    struct Candidate {
-        std::size_t slot = 0;
-        Score averages = 0;
-    };
+    std::vector<Reached> reached_;
     std::vector<Candidate> candidates_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "engine/image/term_weights.h"
+
 namespace haarmony::image {
 
 Tail::Tail(int capacity)
@@ -16,8 +18,8 @@ void Tail::score_all(const Query& query,
                      const IdSet* only,
                      std::vector<Match>& out) const {
     if (count == 0) return;
-    std::vector<std::int32_t> weight_of_key(kKeyCount);
-    for (const QueryTerm& term : query.terms) weight_of_key[term.key] = term.weight;
+    TermWeights weights;
+    for (const QueryTerm& term : query.terms) weights.add(term.key, term.weight);
     for (int slot = 0; slot < count; ++slot) {
         if (is_removed(removed, slot)) continue;
         const Record& record = records_[slot];
@@ -28,7 +30,7 @@ void Tail::score_all(const Query& query,
             const ChannelSignature& channel = record.signature.channels[c];
             average[c] = channel.average;
             for (const std::int16_t signed_index : channel.largest(m)) {
-                matched += weight_of_key[coefficient_key(c, signed_index)];
+                matched += weights.of(coefficient_key(c, signed_index));
             }
         }
         out.push_back({record.id, score(query, average, record.log_aspect, matched)});

@@ -25,17 +25,19 @@ std::uint64_t read_all(const SegmentView& view, const Profile& profile, Signatur
     for (const int wanted_m : {1, 20, 30, 40, 100}) {
         const int m = std::min(wanted_m, int(view.counts.index_m));
         const Query query = make_query(asked, profile, m);
-        const SegmentSearch search(view, query, {});
+        const Rounding rounding(query);
+        const SegmentSearch search(view, query, rounding, {});
         TopK top(10);
         WorstKept worst;
         Visitor visitor(search, top, worst);
         for (int first = 0; first < blocks; first += kBlocksAtOnce) {
             std::array<bool, kBlocksAtOnce> due{};
             due.fill(true);
-            visitor.visit(first,
-                          std::span<const bool>(due).first(
-                              std::size_t(std::min(kBlocksAtOnce, blocks - first))));
+            const int count = std::min(kBlocksAtOnce, blocks - first);
+            visitor.visit(
+                first, std::span<const bool>(due).first(std::size_t(count)), {});
         }
+        visitor.finish();
         std::vector<Match> all;
         search.score_all(all);
         sum += all.size();
