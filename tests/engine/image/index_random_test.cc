@@ -46,7 +46,7 @@ class Trial {
         : seed_(seed), collection_(seed), index_(collection_.options()) {}
 
     void run() {
-        for (int changes = 1 + collection_.below(5); changes > 0; --changes) {
+        for (int changes = 1 + collection_.below(4); changes > 0; --changes) {
             const Change change = collection_.change();
             index_.apply(change.upserts, change.removals);
             merge();

@@ -11,7 +11,7 @@ namespace haarmony::image {
 namespace {
 
 // One collection in so many has several groups of blocks, and takes as long as twenty.
-constexpr int kLarge = 150;
+constexpr int kLarge = 200;
 constexpr int kMostOfLarge = 5000;
 // A block has 256 pictures: a third of the others has one or two of them full.
 constexpr std::array<int, 3> kMost = {12, 90, 600};
@@ -107,10 +107,12 @@ Signature RandomCollection::any_signature() {
     for (ChannelSignature& channel : signature.channels) {
         channel.average = any_average();
         const int wanted = below(most_coefficients_ + 1);
-        std::array<bool, kCoefficientCount> taken{};
+        ++channels_made_;
         for (int tries = 2 * wanted; tries > 0 && channel.count < wanted; --tries) {
             const int index = any_index();
-            if (std::exchange(taken[std::size_t(index)], true)) continue;
+            if (std::exchange(taken_by_[std::size_t(index)], channels_made_) ==
+                channels_made_)
+                continue;
             channel.indices[channel.count++] =
                 static_cast<std::int16_t>(one_in(3) ? -index : index);
         }

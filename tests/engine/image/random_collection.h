@@ -60,6 +60,9 @@ class RandomCollection {
     std::int64_t first_id_ = 1;
     std::int64_t id_stride_ = 1;
     std::vector<Signature> kinds_;  // empty: no two pictures need be alike
+    // Which channel made last took the place; cheaper than forgetting all places each time.
+    std::vector<int> taken_by_ = std::vector<int>(kCoefficientCount);
+    int channels_made_ = 0;
     Pictures live_;
 };
 
