@@ -46,14 +46,16 @@ class Trial {
         : seed_(seed), collection_(seed), index_(collection_.options()) {}
 
     void run() {
-        for (int changes = 1 + collection_.below(4); changes > 0; --changes) {
+        for (int changes = collection_.changes(); changes > 0; --changes) {
             const Change change = collection_.change();
             index_.apply(change.upserts, change.removals);
             merge();
             ASSERT_EQ(index_.snapshot()->stats().images,
                       std::int64_t(collection_.live().size()))
                 << text();
-            for (int questions = 1 + collection_.below(3); questions > 0; --questions) {
+            const bool is_last = changes == 1;
+            const int questions = is_last ? 3 : collection_.below(3);
+            for (int i = 0; i < questions; ++i) {
                 ask();
                 if (testing::Test::HasFatalFailure()) return;
             }
@@ -71,6 +73,7 @@ class Trial {
 
     void merge() {
         int most = std::array{0, 0, 1, 100}[std::size_t(collection_.below(4))];
+        if (collection_.scattered() && !collection_.one_in(20)) most = 0;
         while (most-- > 0 && index_.merge_once()) {
         }
     }
@@ -86,7 +89,7 @@ class Trial {
                 const Question& question,
                 std::vector<Match> ranking) {
         const Query query = query_of(question);
-        const std::optional<IdSet> only = set_of(question);
+        const std::optional<IdSet> only = id_set_of(question);
         const IdSet* const filter = only ? &*only : nullptr;
         if (collection_.one_in(3)) {
             std::vector<Match> all = snapshot.score_all(query, filter);
@@ -133,19 +136,12 @@ class Trial {
 
         std::vector<Way> ways;
         for (const Query& query : queries) ways.push_back({snapshot.get(), &query});
-        const std::optional<IdSet> only = set_of(upright);
+        const std::optional<IdSet> only = id_set_of(upright);
         const BestResult found =
             search_best(ways, {upright.limit, only ? &*only : nullptr});
         ASSERT_EQ(found.matches, expected)
             << text() << "\nin " << ways.size() << " positions: " << upright.text();
         ASSERT_EQ(found.searched, std::int64_t(best.size())) << text();
-    }
-
-    static std::optional<IdSet> set_of(const Question& question) {
-        if (!question.only) return std::nullopt;
-        std::vector<ImageId> ids;
-        for (const std::int64_t id : *question.only) ids.push_back(ImageId{id});
-        return IdSet(ids);
     }
 
     const unsigned seed_;

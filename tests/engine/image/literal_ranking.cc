@@ -66,6 +66,13 @@ Query query_of(const Question& question) {
     return query;
 }
 
+std::optional<IdSet> id_set_of(const Question& question) {
+    if (!question.only) return std::nullopt;
+    std::vector<ImageId> ids;
+    for (const std::int64_t id : *question.only) ids.push_back(ImageId{id});
+    return IdSet(ids);
+}
+
 std::vector<Match> rank_literally(const Pictures& pictures, const Question& question) {
     std::vector<Match> ranking;
     for (const auto& [id, record] : pictures) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/id_set.h"
 #include "engine/image/profile.h"
 #include "engine/image/query.h"
 #include "engine/image/record.h"
@@ -36,6 +37,7 @@ struct Question {
 
 // The question as the search takes it.
 [[nodiscard]] Query query_of(const Question& question);
+[[nodiscard]] std::optional<IdSet> id_set_of(const Question& question);
 
 // All pictures that are asked about, best first, whatever the limit.
 [[nodiscard]] std::vector<Match> rank_literally(const Pictures& pictures,

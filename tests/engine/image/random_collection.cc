@@ -13,6 +13,8 @@ namespace {
 // One collection in so many has several groups of blocks, and takes as long as twenty.
 constexpr int kLarge = 200;
 constexpr int kMostOfLarge = 5000;
+// One in so many has many segments, and takes as long as ten.
+constexpr int kScattered = 30;
 // A block has 256 pictures: a third of the others has one or two of them full.
 constexpr std::array<int, 3> kMost = {12, 90, 600};
 
@@ -23,7 +25,9 @@ RandomCollection::RandomCollection(unsigned seed) : random_(seed) {
     constexpr std::array<int, 6> kUsualM = {60, 40, 20, 100, 41, 1};
     options_.index_m =
         one_in(2) ? kUsualM[std::size_t(below(6))] : 1 + below(kMaxCoefficients);
-    options_.tail_capacity = one_in(3) ? 1 : 1 + below(2 * pictures_);
+    scattered_ = one_in(kScattered);
+    changes_ = scattered_ ? 17 + below(30) : 1 + below(4);
+    options_.tail_capacity = scattered_ || one_in(3) ? 1 : 1 + below(2 * pictures_);
     spread_ = static_cast<Spread>(below(3));
     most_coefficients_ = one_in(4) ? kMaxCoefficients : 1 + below(kMaxCoefficients);
     places_ = 2 + below(150);
@@ -48,12 +52,14 @@ std::string RandomCollection::text() const {
 
 Change RandomCollection::change() {
     Change change;
-    const bool fill = live_.empty() || one_in(3);
-    const int upserts = fill ? pictures_ : below(pictures_ / 3 + 2);
+    const bool fill = !scattered_ && (live_.empty() || one_in(3));
+    const int upserts = fill         ? pictures_
+                        : scattered_ ? 2 + below(6)
+                                     : below(pictures_ / 3 + 2);
     for (int i = 0; i < upserts; ++i)
         change.upserts.push_back({any_id(), any_picture(), below(3) * 1000 - 1000});
     // A few, about half, or all.
-    const int share = one_in(12) ? 1 : one_in(3) ? 2 : 15;
+    const int share = scattered_ ? 60 : one_in(12) ? 1 : one_in(3) ? 2 : 15;
     for (const auto& [id, _] : live_) {
         if (one_in(share)) change.removals.push_back(ImageId{id});
     }

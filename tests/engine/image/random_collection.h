@@ -25,6 +25,11 @@ class RandomCollection {
     // What was chosen for the whole collection.
     [[nodiscard]] std::string text() const;
 
+    // How many changes it goes through.
+    [[nodiscard]] int changes() const { return changes_; }
+    // Whether its changes leave one small segment after the other, so that a search has more
+    // blocks than it visits first.
+    [[nodiscard]] bool scattered() const { return scattered_; }
     // The next change, which live() has then seen.
     Change change();
     [[nodiscard]] const Pictures& live() const { return live_; }
@@ -51,6 +56,8 @@ class RandomCollection {
 
     std::mt19937 random_;
     int pictures_ = 0;  // about as many as there will be
+    int changes_ = 0;
+    bool scattered_ = false;
     IndexOptions options_;
     Spread spread_ = Spread::kPopular;
     int most_coefficients_ = 0;
