@@ -18,7 +18,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
     const std::size_t room = std::max(kRoom, alignment);
     const std::size_t whole = (room + size + room - 1) / room * room;
     auto* const begin = static_cast<std::byte*>(std::aligned_alloc(room, whole));
-    if (begin == nullptr) throw std::bad_alloc();
+    if (begin == nullptr) std::abort();  // a test that is out of memory has failed
     std::byte* const piece = begin + room;
     new (piece - sizeof(std::size_t)) std::size_t(size);
     const std::int64_t live = now += std::int64_t(size);
@@ -37,16 +37,61 @@ void release(void* piece, std::size_t alignment) {
 
 }  // namespace
 
+// All forms: where a sanitizer's library stands beneath, those left out would be its own.
 void* operator new(std::size_t size) { return allocate(size, kRoom); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return allocate(size, std::size_t(alignment));
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return allocate(size, kRoom);
+}
+void* operator new(std::size_t size,
+                   std::align_val_t alignment,
+                   const std::nothrow_t&) noexcept {
+    return allocate(size, std::size_t(alignment));
+}
 void operator delete(void* piece) noexcept { release(piece, kRoom); }
 void operator delete(void* piece, std::size_t) noexcept { release(piece, kRoom); }
+void operator delete(void* piece, const std::nothrow_t&) noexcept {
+    release(piece, kRoom);
+}
 void operator delete(void* piece, std::align_val_t alignment) noexcept {
     release(piece, std::size_t(alignment));
 }
+void operator delete(void* piece,
+                     std::align_val_t alignment,
+                     const std::nothrow_t&) noexcept {
+    release(piece, std::size_t(alignment));
+}
 void operator delete(void* piece, std::size_t, std::align_val_t alignment) noexcept {
+    release(piece, std::size_t(alignment));
+}
+void* operator new[](std::size_t size) { return allocate(size, kRoom); }
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return allocate(size, std::size_t(alignment));
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    return allocate(size, kRoom);
+}
+void* operator new[](std::size_t size,
+                     std::align_val_t alignment,
+                     const std::nothrow_t&) noexcept {
+    return allocate(size, std::size_t(alignment));
+}
+void operator delete[](void* piece) noexcept { release(piece, kRoom); }
+void operator delete[](void* piece, std::size_t) noexcept { release(piece, kRoom); }
+void operator delete[](void* piece, const std::nothrow_t&) noexcept {
+    release(piece, kRoom);
+}
+void operator delete[](void* piece, std::align_val_t alignment) noexcept {
+    release(piece, std::size_t(alignment));
+}
+void operator delete[](void* piece,
+                       std::align_val_t alignment,
+                       const std::nothrow_t&) noexcept {
+    release(piece, std::size_t(alignment));
+}
+void operator delete[](void* piece, std::size_t, std::align_val_t alignment) noexcept {
     release(piece, std::size_t(alignment));
 }
 
