@@ -57,11 +57,24 @@ Result<void> need_open(StatementCache& cache, std::int64_t generation) {
     return {};
 }
 
-Result<void> run_for(StatementCache& cache, std::string_view sql, std::int64_t number) {
-    auto statement = cache.borrow(sql);
-    if (!statement) return std::move(statement).error();
-    (*statement)->bind(1, number);
-    return (*statement)->run();
+// All that `change` does to a generation that is there and not published, or nothing of it.
+template <typename Change>
+Result<void> change_open(StatementCache& cache,
+                         std::int64_t generation,
+                         std::string_view doing,
+                         const Change& change) {
+    const auto attempt = [&]() -> Result<void> {
+        Result<WriteScope> scope =
+            WriteScope::begin(cache, WriteScope::Kind::kTransaction);
+        if (!scope) return std::move(scope).error();
+        Result<void> done = need_open(cache, generation);
+        if (done) done = change();
+        if (done) done = scope->commit();
+        return done;
+    };
+    Result<void> done = attempt();
+    if (!done) return while_doing(doing, std::move(done).error());
+    return {};
 }
 
 Result<void> store_pairs(StatementCache& cache,
@@ -124,59 +137,30 @@ Result<std::int64_t> DuplicateStore::begin_generation() {
 
 Result<void> DuplicateStore::add(std::int64_t generation,
                                  std::span<const DuplicatePair> pairs) {
-    const auto failed = [](Error error) {
-        return while_doing("cannot add duplicates", std::move(error));
-    };
-    Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
-    if (!scope) return failed(std::move(scope).error());
-    Result<void> done = need_open(cache_, generation);
-    if (done) done = store_pairs(cache_, generation, pairs);
-    if (done) done = scope->commit();
-    if (!done) return failed(std::move(done).error());
-    return {};
+    return change_open(cache_, generation, "cannot add duplicates", [&] {
+        return store_pairs(cache_, generation, pairs);
+    });
 }
 
 Result<void> DuplicateStore::publish(std::int64_t generation) {
-    const auto failed = [&](Error error) {
-        return while_doing("cannot publish " + generation_name(generation),
-                           std::move(error));
-    };
-    Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
-    if (!scope) return failed(std::move(scope).error());
-    Result<void> done = need_open(cache_, generation);
-    // The older ones first: at most one is published at any moment.
-    if (done) {
-        done = run_for(cache_,
-                       "DELETE FROM duplicate_generations WHERE generation < ?1",
-                       generation);
-    }
-    if (done) {
-        done = run_for(
-            cache_,
+    const std::string doing = "cannot publish " + generation_name(generation);
+    return change_open(cache_, generation, doing, [&] {
+        // The older ones first: at most one is published at any moment.
+        Result<void> done = cache_.run(
+            "DELETE FROM duplicate_generations WHERE generation < ?1", generation);
+        if (!done) return done;
+        return cache_.run(
             "UPDATE duplicate_generations SET published = 1 WHERE generation = ?1",
             generation);
-    }
-    if (done) done = scope->commit();
-    if (!done) return failed(std::move(done).error());
-    return {};
+    });
 }
 
 Result<void> DuplicateStore::discard(std::int64_t generation) {
-    const auto failed = [&](Error error) {
-        return while_doing("cannot discard " + generation_name(generation),
-                           std::move(error));
-    };
-    Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
-    if (!scope) return failed(std::move(scope).error());
-    Result<void> done = need_open(cache_, generation);
-    if (done) {
-        done = run_for(cache_,
-                       "DELETE FROM duplicate_generations WHERE generation = ?1",
-                       generation);
-    }
-    if (done) done = scope->commit();
-    if (!done) return failed(std::move(done).error());
-    return {};
+    const std::string doing = "cannot discard " + generation_name(generation);
+    return change_open(cache_, generation, doing, [&] {
+        return cache_.run("DELETE FROM duplicate_generations WHERE generation = ?1",
+                          generation);
+    });
 }
 
 Result<std::int64_t> DuplicateStore::published_generation() {

@@ -144,17 +144,10 @@ Result<void> need_state(StatementCache& cache, std::int64_t id, JobState needed)
     return {};
 }
 
-Result<void> run_for(StatementCache& cache, std::string_view sql, std::int64_t number) {
-    auto statement = cache.borrow(sql);
-    if (!statement) return std::move(statement).error();
-    (*statement)->bind(1, number);
-    return (*statement)->run();
-}
-
 Result<void> store_errors(StatementCache& cache,
                           std::int64_t id,
                           std::span<const std::string> errors) {
-    Result<void> cleared = run_for(cache, "DELETE FROM job_errors WHERE job_id = ?1", id);
+    Result<void> cleared = cache.run("DELETE FROM job_errors WHERE job_id = ?1", id);
     if (!cleared) return cleared;
     auto statement = cache.borrow(
         "INSERT INTO job_errors (job_id, number, message) VALUES (?1, ?2, ?3)");
@@ -184,7 +177,7 @@ Result<void> store_end(StatementCache& cache,
         Result<void> stored = (*statement)->run();
         if (!stored) return stored;
     }
-    return run_for(cache, kPrune, kMaxFinishedJobs);
+    return cache.run(kPrune, kMaxFinishedJobs);
 }
 
 Result<std::int64_t> requeue(StatementCache& cache) {
@@ -276,7 +269,7 @@ Result<void> JobStore::start(std::int64_t id) {
     Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
     if (!scope) return failed(std::move(scope).error());
     Result<void> done = need_state(cache_, id, JobState::kQueued);
-    if (done) done = run_for(cache_, kStart, id);
+    if (done) done = cache_.run(kStart, id);
     if (done) done = scope->commit();
     if (!done) return failed(std::move(done).error());
     return {};
@@ -343,7 +336,7 @@ Result<Job> JobStore::cancel(std::int64_t id) {
     if (is_finished(*state)) return failed(wrong_state(id, *state, "queued or running"));
     Result<void> done = *state == JobState::kQueued
                             ? store_end(cache_, id, JobState::kCancelled, "{}")
-                            : run_for(cache_, kAskToCancel, id);
+                            : cache_.run(kAskToCancel, id);
     if (!done) return failed(std::move(done).error());
     Result<Job> job = read_job(cache_, id);
     if (!job) return failed(std::move(job).error());
@@ -372,7 +365,7 @@ Result<std::int64_t> JobStore::requeue_running() {
     Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
     if (!scope) return failed(std::move(scope).error());
     Result<void> done = cache_.run(kCancelAsked);
-    if (done) done = run_for(cache_, kPrune, kMaxFinishedJobs);
+    if (done) done = cache_.run(kPrune, kMaxFinishedJobs);
     if (!done) return failed(std::move(done).error());
     const Result<std::int64_t> count = requeue(cache_);
     if (!count) return failed(count.error());

@@ -152,4 +152,11 @@ Result<void> StatementCache::run(std::string_view sql) {
     return (*statement)->run();
 }
 
+Result<void> StatementCache::run(std::string_view sql, std::int64_t number) {
+    Result<Loan> statement = borrow(sql);
+    if (!statement) return std::move(statement).error();
+    (*statement)->bind(1, number);
+    return (*statement)->run();
+}
+
 }  // namespace haarmony::schema

@@ -87,6 +87,8 @@ class StatementCache {
     [[nodiscard]] Result<Loan> borrow(std::string_view sql);
     // Borrows and runs a statement without parameters and rows.
     [[nodiscard]] Result<void> run(std::string_view sql);
+    // The same of one whose only parameter is a number.
+    [[nodiscard]] Result<void> run(std::string_view sql, std::int64_t number);
     [[nodiscard]] sqlite3* database() const { return database_; }
 
   private:

@@ -11,10 +11,8 @@
 #include <exception>
 #include <utility>
 
-#include "server/http/conditional.h"
-#include "server/http/content_encoding.h"
-#include "server/http/file_body.h"
-#include "server/http/header_value.h"
+#include "server/http/answer.h"
+#include "server/http/problem.h"
 #include "server/http/response_head.h"
 
 namespace haarmony::http {
@@ -23,7 +21,6 @@ namespace {
 namespace net = boost::asio;
 using Clock = std::chrono::steady_clock;
 using State = RequestParser::State;
-using Arrival = Connection::Arrival;
 
 constexpr int kClientLeft = 499;  // in the access log only
 constexpr std::chrono::milliseconds kHalfClosePause{250};
@@ -35,12 +32,6 @@ Problem overloaded(std::string detail) {
             .code = "overloaded",
             .detail = std::move(detail),
             .headers = {{"Retry-After", "1"}}};
-}
-
-Problem timed_out(std::string_view what) {
-    return {.status = 408,
-            .code = "request_timeout",
-            .detail = "The request's " + std::string(what) + " took too long to arrive."};
 }
 
 }  // namespace
@@ -74,6 +65,7 @@ Session::Session(net::ip::tcp::socket socket,
     : service_(service),
       ended_(std::move(ended)),
       connection_(std::make_shared<Connection>(std::move(socket))),
+      reader_(*connection_, service.options),
       wake_(connection_->executor()),
       half_closed_(connection_->executor()) {}
 
@@ -124,7 +116,7 @@ net::awaitable<void> Session::serve() {
 
 net::awaitable<void> Session::turn_away() {
     RequestParser parser;
-    const bool arrived = co_await read_head(
+    const bool arrived = co_await reader_.read_head(
         parser, std::min(kTurnedAwayDeadline, service_.options.header_deadline));
     if (!arrived) co_return;
     Exchange exchange(parser);
@@ -144,80 +136,12 @@ net::awaitable<void> Session::turn_away() {
     report_finished(exchange);
 }
 
-// False if the connection ended before there was a request to answer.
-net::awaitable<bool> Session::read_head(RequestParser& parser,
-                                        std::chrono::milliseconds deadline) {
-    bool begun = !connection_->received().empty();
-    connection_->start_read_deadline(first_ || begun ? deadline
-                                                     : service_.options.idle_deadline);
-    connection_->consume(parser.feed(connection_->received()));
-    if (parser.state() != State::kHead) co_return true;
-    for (;;) {
-        const Arrival arrival = co_await connection_->fill();
-        if (arrival == Arrival::kEnd) co_return false;
-        if (arrival == Arrival::kTimeout) {
-            if (!begun) co_return false;
-            parser.refuse(timed_out("head"));
-            co_return true;
-        }
-        connection_->consume(parser.feed(connection_->received()));
-        if (parser.state() != State::kHead) co_return true;
-        if (!begun && !first_) connection_->start_read_deadline(deadline);
-        begun = true;
-    }
-}
-
-// To kDone or kBad; if the client stops in the middle of the body, `gone_` is set.
-net::awaitable<void> Session::read_body(RequestParser& parser) {
-    connection_->start_read_deadline(service_.options.body_deadline);
-    for (;;) {
-        connection_->consume(parser.feed(connection_->received()));
-        if (parser.state() != State::kBody) co_return;
-        const Arrival arrival = co_await connection_->fill();
-        if (arrival == Arrival::kTimeout) {
-            parser.refuse(timed_out("body"));
-        } else if (arrival == Arrival::kEnd) {
-            gone_ = true;
-        }
-        if (arrival != Arrival::kBytes) co_return;
-    }
-}
-
-// Sees to what the head says of the body, up to "100 Continue".
-net::awaitable<void> Session::expect_body(RequestParser& parser, std::uint64_t limit) {
-    const std::string_view coding = parser.request().header("Content-Encoding");
-    const std::string_view expect = parser.request().header("Expect");
-    if (!coding.empty() && !equal_without_case(coding, "identity")) {
-        parser.refuse({.status = 415,
-                       .code = "unsupported_content_encoding",
-                       .detail = "Bodies are taken as they are, not encoded as '" +
-                                 std::string(coding) + "'.",
-                       .param = "Content-Encoding",
-                       .headers = {{"Accept-Encoding", "identity"}}});
-        co_return;
-    }
-    if (!expect.empty() && !equal_without_case(expect, "100-continue")) {
-        parser.refuse({.status = 417,
-                       .code = "expectation_failed",
-                       .detail = "Expect: '" + std::string(expect) + "' is not known.",
-                       .param = "Expect"});
-        co_return;
-    }
-    parser.begin_body(limit);
-    const bool wants_word = !expect.empty() && parser.state() == State::kBody &&
-                            !parser.is_http_1_0() && connection_->received().empty();
-    if (!wants_word) co_return;
-    const bool told = co_await connection_->write("HTTP/1.1 100 Continue\r\n\r\n",
-                                                  service_.options.write_deadline);
-    if (!told) gone_ = true;
-}
-
 // One request. True if another may follow.
 net::awaitable<bool> Session::serve_request() {
     RequestParser parser;
-    const bool arrived = co_await read_head(parser, service_.options.header_deadline);
+    const bool arrived =
+        co_await reader_.read_head(parser, service_.options.header_deadline);
     if (!arrived) co_return false;
-    first_ = false;
     left_ = false;
     Exchange exchange(parser);
     stop_ = std::stop_source();
@@ -246,8 +170,9 @@ net::awaitable<void> Session::receive(Exchange& exchange) {
             exchange.response = service_.router.dispatch(request, service_.hooks.failed);
             exchange.answered = true;
         } else {
-            co_await expect_body(parser, match.options->body_limit);
-            if (!gone_ && parser.state() == State::kBody) co_await read_body(parser);
+            const bool arrived =
+                co_await reader_.read_body(parser, match.options->body_limit);
+            if (!arrived) gone_ = true;
             if (parser.state() == State::kDone)
                 exchange.cost = match.options->cost_for(request);
         }
@@ -297,26 +222,10 @@ std::optional<Response> Session::admit(const Request& request,
     return service_.hooks.admit(request, options);
 }
 
-// The handler, and what makes its answer ready to be sent.
 void Session::run_handler(Exchange& exchange) const {
-    const FailureReport& failed = service_.hooks.failed;
-    Request& request = exchange.request();
-    Response& response = exchange.response;
-    response = service_.router.dispatch(request, failed);
-    const bool compress = select_gzip(request, response);
-    apply_conditions(request, response);
-    if (compress && response.status == 200) gzip_body(response);
-    exchange.content_length = body_length(response);
-    const auto* range = std::get_if<FileRange>(&response.body);
-    if (range == nullptr) return;
-    Result<ChunkSource> source = open_file_range(*range);
-    if (source) {
-        response.body = *std::move(source);
-        return;
-    }
-    if (failed) failed(request, source.error().message);
-    response = to_response(problem_of(source.error()), request);
-    exchange.content_length = body_length(response);
+    Answer made = answer(service_.router, exchange.request(), service_.hooks.failed);
+    exchange.response = std::move(made.response);
+    exchange.content_length = made.content_length;
 }
 
 // Waking another thread takes longer than most cheap handlers: they run on this one as long
@@ -377,9 +286,7 @@ net::awaitable<bool> Session::send(Exchange& exchange) {
     Response& response = exchange.response;
     const auto* bytes = std::get_if<std::string>(&response.body);
     const auto* source = std::get_if<ChunkSource>(&response.body);
-    const auto* range = std::get_if<FileRange>(&response.body);
     if (bytes != nullptr) exchange.content_length = bytes->size();
-    if (range != nullptr) exchange.content_length = range->length;
 
     const bool has_body =
         may_have_body(response.status) && exchange.request().method != "HEAD";

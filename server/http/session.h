@@ -24,6 +24,7 @@
 #include "server/http/connection.h"
 #include "server/http/listener.h"
 #include "server/http/request_parser.h"
+#include "server/http/request_reader.h"
 #include "server/http/worker_pool.h"
 
 namespace haarmony::http {
@@ -64,10 +65,6 @@ class Session : public std::enable_shared_from_this<Session> {
 
     boost::asio::awaitable<void> serve();
     boost::asio::awaitable<void> turn_away();
-    boost::asio::awaitable<bool> read_head(RequestParser& parser,
-                                           std::chrono::milliseconds deadline);
-    boost::asio::awaitable<void> read_body(RequestParser& parser);
-    boost::asio::awaitable<void> expect_body(RequestParser& parser, std::uint64_t limit);
     boost::asio::awaitable<bool> serve_request();
     boost::asio::awaitable<void> receive(Exchange& exchange);
     boost::asio::awaitable<void> respond(Exchange& exchange);
@@ -92,13 +89,13 @@ class Session : public std::enable_shared_from_this<Session> {
     const Service& service_;
     const std::function<void()> ended_;
     const std::shared_ptr<Connection> connection_;
+    RequestReader reader_;
     boost::asio::steady_timer wake_;         // its cancellation wakes what waits
     boost::asio::steady_timer half_closed_;  // runs from a FIN on
     std::stop_source stop_;                  // of the request in work
     std::uint64_t request_number_ = 0;
     bool left_ = false;         // probably nobody waits for the answer any more
     bool gone_ = false;         // nobody does
-    bool first_ = true;         // no request has been read yet
     bool must_linger_ = false;  // a body was refused without being read
 };
 

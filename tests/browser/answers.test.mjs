@@ -1,28 +1,15 @@
 // "This is it", "Why this match" and training: what goes to the server, and only when told to.
 
 import assert from 'node:assert/strict';
-import { after, before, beforeEach, test } from 'node:test';
-import { chooseColor, chooseSize, openBrowser, paintStroke, resultIds } from './support/browser.mjs';
+import { beforeEach, test } from 'node:test';
+import { chooseColor, chooseSize, paintStroke, resultIds } from './support/browser.mjs';
 import { FakeFeatures } from './support/fake_features.mjs';
-import { FakeServer, described, problem } from './support/fake_server.mjs';
+import { browser, page, server, useFakePage } from './support/fake_page.mjs';
+import { described, problem } from './support/fake_server.mjs';
 import { encodePng } from './support/png.mjs';
 
-const server = new FakeServer();
 let features = new FakeFeatures(problem, described);
-/** @type {Awaited<ReturnType<typeof openBrowser>>} */
-let browser;
-/** @type {import('playwright-core').Page} */
-let page;
-
-before(async () => {
-  await server.start();
-  browser = await openBrowser();
-  page = browser.page;
-});
-after(async () => {
-  await browser?.close();
-  await server.stop();
-});
+useFakePage();
 beforeEach(async () => {
   server.features = features = new FakeFeatures(problem, described);
   await page.goto('about:blank');

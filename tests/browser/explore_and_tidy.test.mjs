@@ -2,48 +2,14 @@
 // overview, duplicates and answers. Needs HAARMONY_BIN, the folder of the executables.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { chooseSize, keepScreenshot, openBrowser, paintStroke, resultIds } from './support/browser.mjs';
-import { GalleryServer } from './support/daemon.mjs';
-
-const bin = process.env.HAARMONY_BIN;
-const skip = bin ? false : 'HAARMONY_BIN is not set: no executables to test with';
+import { test } from 'node:test';
+import { chooseSize, keepScreenshot, paintStroke, resultIds } from './support/browser.mjs';
+import { browser, page, pictures, server, skip, useGalleryPage } from './support/gallery_page.mjs';
 
 const kPictures = 40;
 const kTwins = 2;
 
-/** @type {GalleryServer} */
-let server;
-/** @type {Awaited<ReturnType<typeof openBrowser>> | null} */
-let browser = null;
-/** @type {import('playwright-core').Page} */
-let page;
-/** @type {{id: number, uri: string}[]} */
-let pictures;
-
-before(async () => {
-  if (!bin) return;
-  server = new GalleryServer(bin);
-  try {
-    await server.fill(kPictures, kTwins);
-    await server.start();
-    pictures = (await (await fetch(`${server.address}images?limit=1000`)).json()).items;
-    browser = await openBrowser();
-    page = browser.page;
-  } catch (error) {
-    await tidy(); // the runner skips after() when before() fails, and would wait for the daemon
-    throw error;
-  }
-});
-after(async () => {
-  if (bin) await tidy();
-});
-
-async function tidy() {
-  await browser?.close();
-  await server.stop();
-  server.remove();
-}
+useGalleryPage(kPictures, kTwins);
 
 test('a mirrored copy is found when mirrored pictures count, and said to be one', { skip }, async () => {
   await page.goto(server.address);

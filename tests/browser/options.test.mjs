@@ -2,27 +2,14 @@
 // is offered at all.
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { openBrowser, paintStroke } from './support/browser.mjs';
+import { afterEach, beforeEach, test } from 'node:test';
+import { paintStroke } from './support/browser.mjs';
 import { FakeFeatures } from './support/fake_features.mjs';
-import { FakeServer, described, problem } from './support/fake_server.mjs';
+import { browser, page, server, useFakePage } from './support/fake_page.mjs';
+import { described, problem } from './support/fake_server.mjs';
 import { encodePng } from './support/png.mjs';
 
-const server = new FakeServer();
-/** @type {Awaited<ReturnType<typeof openBrowser>>} */
-let browser;
-/** @type {import('playwright-core').Page} */
-let page;
-
-before(async () => {
-  await server.start();
-  browser = await openBrowser();
-  page = browser.page;
-});
-after(async () => {
-  await browser?.close();
-  await server.stop();
-});
+useFakePage();
 beforeEach(async () => {
   server.features = new FakeFeatures(problem, described);
   await open('');

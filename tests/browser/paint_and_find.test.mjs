@@ -3,50 +3,15 @@
 // and finds it. Needs HAARMONY_BIN, the folder of the executables.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { chooseColor, chooseSize, keepScreenshot, openBrowser, paintStroke, resultIds } from './support/browser.mjs';
-import { GalleryServer } from './support/daemon.mjs';
-
-const bin = process.env.HAARMONY_BIN;
-const skip = bin ? false : 'HAARMONY_BIN is not set: no executables to test with';
+import { test } from 'node:test';
+import { chooseColor, chooseSize, keepScreenshot, paintStroke, resultIds } from './support/browser.mjs';
+import { browser, page, pictures, server, skip, useGalleryPage } from './support/gallery_page.mjs';
 
 const kPictures = 60;
 const kColumns = 6;
 const kRows = 4;
 
-/** @type {GalleryServer} */
-let server;
-/** @type {Awaited<ReturnType<typeof openBrowser>> | null} */
-let browser = null;
-/** @type {import('playwright-core').Page} */
-let page;
-/** Ids of the gallery in their order. @type {number[]} */
-let ids;
-
-before(async () => {
-  if (!bin) return;
-  server = new GalleryServer(bin);
-  try {
-    await server.fill(kPictures);
-    await server.start();
-    const { items } = await (await fetch(`${server.address}images?limit=1000`)).json();
-    ids = items.map((/** @type {{id: number}} */ { id }) => id);
-    browser = await openBrowser();
-    page = browser.page;
-  } catch (error) {
-    await tidy(); // the runner skips after() when before() fails, and would wait for the daemon
-    throw error;
-  }
-});
-after(async () => {
-  if (bin) await tidy();
-});
-
-async function tidy() {
-  await browser?.close();
-  await server.stop();
-  server.remove();
-}
+useGalleryPage(kPictures);
 
 test('the first screen counts the gallery and offers some of it', { skip }, async () => {
   await page.goto(server.address);
@@ -61,7 +26,8 @@ test('the first screen counts the gallery and offers some of it', { skip }, asyn
 test('a sketch in a few blobs finds its picture among the first three', { skip }, async (t) => {
   /** @type {number[]} */
   const ranks = [];
-  for (const target of [ids[3], ids[Math.floor(kPictures / 2)], ids[kPictures - 4]]) {
+  for (const place of [3, Math.floor(kPictures / 2), kPictures - 4]) {
+    const target = pictures[place].id;
     await page.goto('about:blank');
     await page.goto(server.address);
     await paintSketchOf(target);

@@ -1,29 +1,15 @@
 // The canvas with every tool and every kind of pointer, looked at pixel by pixel.
 
 import assert from 'node:assert/strict';
-import { after, before, beforeEach, test } from 'node:test';
-import { chooseColor, chooseSize, openBrowser, paintStroke, pixelAt } from './support/browser.mjs';
-import { FakeServer } from './support/fake_server.mjs';
+import { beforeEach, test } from 'node:test';
+import { chooseColor, chooseSize, paintStroke, pixelAt } from './support/browser.mjs';
+import { browser, page, server, useFakePage } from './support/fake_page.mjs';
 
 const kBlue = [0, 0, 255, 255];
 const kRed = [255, 0, 0, 255];
 const kNone = [0, 0, 0, 0];
 
-const server = new FakeServer();
-/** @type {Awaited<ReturnType<typeof openBrowser>>} */
-let browser;
-/** @type {import('playwright-core').Page} */
-let page;
-
-before(async () => {
-  await server.start();
-  browser = await openBrowser();
-  page = browser.page;
-});
-after(async () => {
-  await browser?.close();
-  await server.stop();
-});
+useFakePage();
 beforeEach(async () => {
   await page.goto('about:blank');
   await page.goto(server.address);

@@ -1,26 +1,12 @@
 // Searches as the server sees them: what is asked, how often, and which answer is shown.
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { chooseColor, chooseSize, openBrowser, paintStroke, resultIds } from './support/browser.mjs';
-import { FakeServer } from './support/fake_server.mjs';
+import { afterEach, beforeEach, test } from 'node:test';
+import { chooseColor, chooseSize, paintStroke, resultIds } from './support/browser.mjs';
+import { browser, page, server, useFakePage } from './support/fake_page.mjs';
 import { decodePng, encodePng } from './support/png.mjs';
 
-const server = new FakeServer();
-/** @type {Awaited<ReturnType<typeof openBrowser>>} */
-let browser;
-/** @type {import('playwright-core').Page} */
-let page;
-
-before(async () => {
-  await server.start();
-  browser = await openBrowser({ permissions: ['clipboard-read', 'clipboard-write'] });
-  page = browser.page;
-});
-after(async () => {
-  await browser?.close();
-  await server.stop();
-});
+useFakePage({ permissions: ['clipboard-read', 'clipboard-write'] });
 beforeEach(async () => {
   await page.goto('about:blank');
   await page.goto(server.address);

@@ -1,25 +1,12 @@
 // What the page says and does when something is wrong: each trouble is made for real.
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
+import { afterEach, beforeEach, test } from 'node:test';
 import { openBrowser, paintStroke } from './support/browser.mjs';
-import { FakeServer, problem } from './support/fake_server.mjs';
+import { browser, page, server, useFakePage } from './support/fake_page.mjs';
+import { problem } from './support/fake_server.mjs';
 
-const server = new FakeServer();
-/** @type {Awaited<ReturnType<typeof openBrowser>>} */
-let browser;
-/** @type {import('playwright-core').Page} */
-let page;
-
-before(async () => {
-  await server.start();
-  browser = await openBrowser();
-  page = browser.page;
-});
-after(async () => {
-  await browser?.close();
-  await server.stop();
-});
+useFakePage();
 beforeEach(async () => {
   server.count = 60;
   await page.goto('about:blank');

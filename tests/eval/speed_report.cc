@@ -303,29 +303,6 @@ CsvTable size_csv(const SpeedReport& report) {
     return csv;
 }
 
-CsvTable table_4_2_csv(const Table42& table) {
-    CsvTable csv({"metric",
-                  "resolution",
-                  "profile",
-                  "pictures",
-                  "queries",
-                  "median_ms",
-                  "mean_ms",
-                  "printed_ms"});
-    for (const QueryTime& row : table.rows) {
-        const auto printed = printed_ms(row.name, row.pictures);
-        csv.add({row.name.metric,
-                 row.name.resolution,
-                 row.profile,
-                 row.pictures,
-                 row.queries,
-                 row.median_ms,
-                 row.mean_ms,
-                 printed ? CsvCell(*printed) : CsvCell("")});
-    }
-    return csv;
-}
-
 Plot speed_plot(const SpeedReport& report) {
     Plot plot{"time of a query", {}, {}, {}};
     const auto add = [&](const std::string& name, PlotStyle style, double x, double y) {
@@ -388,7 +365,7 @@ std::vector<OutputFile> speed_files(const SpeedReport& report) {
         sections.push_back({"table-4-2",
                             "Table 4.2: the dissertation's times and ours",
                             dissertation_table(report.table_4_2).html()});
-        files.push_back({"speed_table_4_2.csv", table_4_2_csv(report.table_4_2).text()});
+        files.push_back({"speed_table_4_2.csv", to_csv(report.table_4_2).text()});
     }
     files.insert(files.begin(),
                  {"speed.html",

@@ -19,8 +19,6 @@ namespace haarmony::eval {
 [[nodiscard]] CsvTable speed_csv(const SpeedReport& report);
 [[nodiscard]] CsvTable popularity_csv(const SpeedReport& report);
 [[nodiscard]] CsvTable size_csv(const SpeedReport& report);
-// Table 4.2 with the dissertation's figures beside ours.
-[[nodiscard]] CsvTable table_4_2_csv(const Table42& table);
 
 // Median times against the number of pictures, both logarithmic.
 // Requires: the report has rows.

@@ -7,6 +7,7 @@
 
 #include "tests/eval/metric_style.h"
 #include "tests/eval/page.h"
+#include "tests/eval/printed_times.h"
 #include "tests/eval/ranking.h"
 #include "tests/eval/statistics.h"
 
@@ -126,15 +127,18 @@ CsvTable to_csv(const Table42& table) {
                   "pictures",
                   "queries",
                   "median_ms",
-                  "mean_ms"});
+                  "mean_ms",
+                  "printed_ms"});
     for (const QueryTime& row : table.rows) {
+        const auto printed = printed_ms(row.name, row.pictures);
         csv.add({row.name.metric,
                  row.name.resolution,
                  row.profile,
                  row.pictures,
                  row.queries,
                  row.median_ms,
-                 row.mean_ms});
+                 row.mean_ms,
+                 printed ? CsvCell(*printed) : CsvCell("")});
     }
     return csv;
 }

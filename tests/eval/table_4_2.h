@@ -41,6 +41,7 @@ struct Table42 {
                                         std::int64_t small,
                                         std::int64_t large);
 
+// With the dissertation's times, where it prints them, beside ours.
 [[nodiscard]] CsvTable to_csv(const Table42& table);
 [[nodiscard]] std::string to_html(const Table42& table);
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,32 +22,42 @@ std::chrono::milliseconds left_until(Clock::time_point end) {
                     std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()));
 }
 
-// Reads what is there; closes at the end. Returns whether it is still open.
-bool drain(int& fd, std::string& text) {
+// Reads what is there; closes at the end.
+void drain(int& fd, std::string& text) {
     char buffer[4096];
     const ssize_t count = read(fd, buffer, sizeof buffer);
     if (count > 0) {
         text.append(buffer, static_cast<std::size_t>(count));
-        return true;
+        return;
     }
     close(fd);
     fd = -1;
-    return false;
+}
+
+// All that was written, wherever its writer stands.
+std::string written_to(int memory) {
+    std::string text;
+    char buffer[4096];
+    for (;;) {
+        const ssize_t count =
+            pread(memory, buffer, sizeof buffer, static_cast<off_t>(text.size()));
+        if (count <= 0) return text;
+        text.append(buffer, static_cast<std::size_t>(count));
+    }
 }
 
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments) {
     int out[2];
-    int err[2];
-    if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) {
-        throw std::runtime_error("pipe2");
-    }
+    if (pipe2(out, O_CLOEXEC) != 0) throw std::runtime_error("pipe2");
+    err_ = memfd_create("standard error", MFD_CLOEXEC);
+    if (err_ < 0) throw std::runtime_error("memfd_create");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, err_, STDERR_FILENO);
     std::vector<char*> argv;
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
@@ -56,9 +67,7 @@ Process::Process(const std::vector<std::string>& arguments) {
         posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(out[1]);
-    close(err[1]);
     out_ = out[0];
-    err_ = err[0];
     if (failure != 0) throw std::runtime_error("cannot start " + arguments[0]);
 }
 
@@ -72,10 +81,9 @@ Process::~Process() {
 }
 
 bool Process::pump(std::chrono::milliseconds bound) {
-    pollfd fds[2] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};
-    if (poll(fds, 2, static_cast<int>(bound.count())) <= 0) return false;
-    if (fds[0].revents != 0) drain(out_, out_text_);
-    if (fds[1].revents != 0) drain(err_, err_text_);
+    pollfd out{out_, POLLIN, 0};
+    if (poll(&out, 1, static_cast<int>(bound.count())) <= 0) return false;
+    drain(out_, out_text_);
     return true;
 }
 
@@ -97,7 +105,7 @@ void Process::signal(int number) const {
 
 Finished Process::wait(std::chrono::seconds bound) {
     const auto end = Clock::now() + bound;
-    while (out_ >= 0 || err_ >= 0) {
+    while (out_ >= 0) {
         if (!pump(left_until(end))) {
             kill(pid_, SIGKILL);
             break;
@@ -108,7 +116,7 @@ Finished Process::wait(std::chrono::seconds bound) {
     pid_ = -1;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
             out_text_,
-            err_text_};
+            written_to(err_)};
 }
 
 Finished run(const std::vector<std::string>& arguments, std::chrono::seconds bound) {

@@ -1,5 +1,8 @@
 // A program of ours as a child process, for tests of the real executables.
 //
+// Its standard output is a pipe that the test reads; what it writes to its standard error is
+// kept until its end.
+//
 // Errors  a program that cannot be started throws; everything else is for the test to see.
 // Threads one process, one thread.
 #pragma once
@@ -39,9 +42,10 @@ class Process {
 
     pid_t pid_ = -1;
     int out_ = -1;
+    // Memory, not a pipe: a daemon that logs more than a pipe holds, while a test asks it
+    // again and again and reads none of it, would wait for a reader for ever.
     int err_ = -1;
     std::string out_text_;
-    std::string err_text_;
 };
 
 // Starts, waits, and gives what it said.

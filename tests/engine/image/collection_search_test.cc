@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <random>
-#include <thread>
 
 #include "engine/image/profile.h"
 #include "tests/engine/image/random_signatures.h"
+#include "tests/engine/image/scattered_executor.h"
 
 namespace haarmony::image {
 namespace {
@@ -56,17 +56,6 @@ std::vector<Match> score_literally(const std::vector<Record>& records,
     std::ranges::sort(matches, better);
     return matches;
 }
-
-// Calls from several threads at once, in no order.
-class ScatteredExecutor final : public Executor {
-  public:
-    void parallel_for(std::size_t count,
-                      const std::function<void(std::size_t)>& work) override {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = count; i-- > 0;)
-            threads.emplace_back([&work, i] { work(i); });
-    }
-};
 
 struct Settings {
     int index_m = 60;
@@ -146,7 +135,7 @@ TEST_P(SearchOfACollection, IsThatOfEveryPictureOneByOne) {
     const Settings& settings = GetParam();
     std::mt19937 random(settings.seed);
     const Made made = make(settings, random);
-    ScatteredExecutor executor;
+    ScatteredExecutor executor(4);
     for (int round = 0; round < 40; ++round) {
         const Signature asked = round % 2 == 0
                                     ? made.live[random() % made.live.size()].signature

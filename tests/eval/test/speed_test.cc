@@ -15,6 +15,7 @@
 #include "tests/eval/printed_times.h"
 #include "tests/eval/signature_cache.h"
 #include "tests/eval/speed_report.h"
+#include "tests/eval/table_4_2.h"
 #include "tests/eval/test/generated_pictures.h"
 #include "tests/eval/test/xml_reader.h"
 #include "tests/eval/text_table.h"
@@ -272,7 +273,7 @@ TEST(SpeedReport, Table42HasThePrintedFiguresBesideOurs) {
     Table42 table;
     table.rows = {{{"L^q", "m=20"}, "scanned", 1093, 20, 0.5, 0.6},
                   {{"L1", "8x8"}, "", 500, 20, 1.5, 1.6}};
-    EXPECT_EQ(table_4_2_csv(table).text(),
+    EXPECT_EQ(to_csv(table).text(),
               "metric,resolution,profile,pictures,queries,median_ms,mean_ms,printed_ms\n"
               "L^q,m=20,scanned,1093,20,0.5,0.6,190\n"
               "L1,8x8,,500,20,1.5,1.6,\n");
