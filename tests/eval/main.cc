@@ -54,13 +54,12 @@ int run_figures(const FiguresCommand& command) {
 
 struct SpeedCommand {
     std::string out;
-    int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     haarmony::eval::SpeedOptions options;
 };
 
 int run_speed(SpeedCommand command) {
     std::ranges::sort(command.options.images);
-    haarmony::eval::WorkerThreads threads(command.threads);
+    haarmony::eval::WorkerThreads threads(command.options.threads);
     const auto report = haarmony::eval::measure_speed(
         command.options, threads, [](const std::string& line) {
             std::cerr << line << '\n';
@@ -143,6 +142,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
 
     SpeedCommand speed_command;
+    speed_command.options.threads =
+        static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     CLI::App* speed = app.add_subcommand("speed",
                                          "times queries beside the plain algorithm and "
                                          "brute force; exit code 1: an answer "
@@ -168,8 +169,8 @@ int main(int argc, char** argv) {
                       "file that keeps the pictures between runs");
     speed
         ->add_option("--threads",
-                     speed_command.threads,
-                     "for making pictures and checking answers")
+                     speed_command.options.threads,
+                     "for making pictures, checking answers, and the most to search with")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
 

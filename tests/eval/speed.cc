@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/image/bit_sums.h"
 #include "engine/image/index.h"
 #include "engine/image/metric.h"
 #include "tests/eval/cpu_clock.h"
@@ -115,6 +116,7 @@ class Measurement {
                 const Progress& progress,
                 SpeedReport& report)
         : queries_(static_cast<std::size_t>(options.queries)),
+          threads_(options.threads),
           collection_(collection),
           executor_(executor),
           progress_(progress),
@@ -127,6 +129,8 @@ class Measurement {
         progress_(std::to_string(images) + " pictures: the index");
         build_index();
         for (const Case& c : kCases) measure_case(c);
+        progress_(std::to_string(images) + " pictures: cores");
+        measure_cores_of(kCases[1]);
         index_.reset();
         snapshot_.reset();
         progress_(std::to_string(images) + " pictures: brute force");
@@ -144,15 +148,18 @@ class Measurement {
 
     void build_index();
     void measure_case(const Case& c);
+    void measure_scan(const Asked& asked);
     Asked measure_row(const Case& c,
                       image::BinRule rule,
                       std::size_t kind,
                       PlainSearch& plain);
     void check(const std::vector<Asked>& asked);
     void check_oracle(const Asked& asked, std::span<const image::Match> first);
+    void measure_cores_of(const Case& c);
     void measure_brute_force();
 
     std::size_t queries_;
+    int threads_;
     const SyntheticCollection& collection_;
     Executor& executor_;
     const Progress& progress_;
@@ -225,16 +232,47 @@ Measurement::Asked Measurement::measure_row(const Case& c,
     const auto ask_index = [&](std::size_t i) {
         asked.answers[i] = snapshot_->search(asked.queries[i], {kSpeedMatches});
     };
-    report_.rows.push_back(
-        {images_,
-         c.m,
-         asked.profile.name,
-         rule,
-         kSyntheticKinds[kind],
-         static_cast<int>(queries_),
-         measure_in_turn(queries_, calls_for(images_), ask_plain, ask_index),
-         0});
+    SpeedRow row;
+    row.images = images_;
+    row.m = c.m;
+    row.profile = asked.profile.name;
+    row.bin_rule = rule;
+    row.kind = kSyntheticKinds[kind];
+    row.queries = static_cast<int>(queries_);
+    row.times = measure_in_turn(queries_, calls_for(images_), ask_plain, ask_index);
+    report_.rows.push_back(row);
+    for (const image::SearchResult& answer : asked.answers)
+        report_.rows.back().effort += answer.effort;
+    measure_scan(asked);
     return asked;
+}
+
+// What is read of a picture's average and of its own coefficients hangs on the bounds, and
+// is not counted: the scan has to read at least its rows.
+void Measurement::measure_scan(const Asked& asked) {
+    SpeedRow& row = report_.rows[asked.row];
+    image::SearchEffort effort;
+    const auto scan = [&](std::size_t i) {
+        effort =
+            snapshot_->search(asked.queries[i], {kSpeedMatches, nullptr, nullptr, true})
+                .effort;
+    };
+    row.scan = measure_alone(queries_, calls_for(images_), scan);
+    for (std::size_t i = 0; i < queries_; ++i) {
+        scan(i);
+        row.scan_bytes += effort.rows * (image::kBlockSlots / 8);
+    }
+}
+
+void Measurement::measure_cores_of(const Case& c) {
+    const image::Profile profile = *image::built_in_profile(c.profile);
+    std::vector<image::Query> queries;
+    const auto& near = collection_.queries[std::size_t(SyntheticKind::kNear)];
+    for (std::size_t i = 0; i < queries_; ++i)
+        queries.push_back(image::make_query(unpack(near[i].signature), profile, c.m));
+    for (const CoresRow& row :
+         measure_cores(*snapshot_, queries, kSpeedMatches, threads_))
+        report_.cores.push_back(row);
 }
 
 void Measurement::check(const std::vector<Asked>& asked) {
@@ -315,6 +353,7 @@ Result<Table42> dissertation_table(const SmallPhotos& photos,
 std::int64_t SpeedReport::mismatches() const {
     std::int64_t sum = oracle_errors;
     for (const SpeedRow& row : rows) sum += row.mismatches;
+    for (const CoresRow& row : cores) sum += row.mismatches;
     return sum;
 }
 

@@ -23,6 +23,7 @@
 #include "engine/core/result.h"
 #include "engine/image/profile.h"
 #include "engine/image/query.h"
+#include "tests/eval/cores.h"
 #include "tests/eval/list_popularity.h"
 #include "tests/eval/paired_times.h"
 #include "tests/eval/rival_metrics.h"
@@ -44,6 +45,7 @@ struct SpeedOptions {
     std::string cache;                 // a file; empty for none
     int queries = 60;                  // of each kind, 1 .. kMostSpeedQueries
     std::uint64_t seed = 1;
+    int threads = 1;  // the most that searches are measured with
     std::size_t bandwidth_bytes = std::size_t{512} << 20U;  // read to measure memory
 };
 
@@ -55,7 +57,11 @@ struct SpeedRow {
     image::BinRule bin_rule{};
     SyntheticKind kind{};
     int queries = 0;
-    PairedTimes times;  // plain, then the index
+    PairedTimes times;           // plain, then the index
+    image::SearchEffort effort;  // of the index, all queries
+    // The index when it leaves nothing out, and what that has to read, all queries.
+    TimeSummary scan;
+    std::int64_t scan_bytes = 0;
     std::int64_t mismatches = 0;
 };
 
@@ -85,6 +91,7 @@ struct SpeedReport {
     std::vector<SpeedRow> rows;
     std::vector<BruteForceRow> brute_force;
     std::vector<SizeRow> sizes;
+    std::vector<CoresRow> cores;
     std::int64_t oracle_errors =
         0;              // scores of the exhaustive search that the metric denies
     Table42 table_4_2;  // no rows where all sizes are smaller than its larger one

@@ -98,6 +98,61 @@ TextTable times_table(const SpeedReport& report) {
     return table;
 }
 
+// A small collection has no blocks: all of it is in the tail.
+double visited_percent(const SpeedRow& row) {
+    return row.effort.blocks == 0
+               ? 0.0
+               : 100 * double(row.effort.blocks_visited) / double(row.effort.blocks);
+}
+
+double per_query(std::int64_t sum, const SpeedRow& row) {
+    return static_cast<double>(sum) / row.queries;
+}
+
+// How long memory needs for what the scan of a query has to read.
+double bound_ms(const SpeedReport& report, const SpeedRow& row) {
+    return per_query(row.scan_bytes, row) / report.bytes_per_second * 1e3;
+}
+
+TextTable effort_table(const SpeedReport& report) {
+    TextTable table({"profile",
+                     "bins",
+                     "query",
+                     "pictures",
+                     "m",
+                     "blocks visited %",
+                     "pictures compared",
+                     "scan ms",
+                     "its bytes a picture",
+                     "of the memory's time"},
+                    3);
+    for (const SpeedRow& row : report.rows) {
+        table.add({row.profile,
+                   rule_name(row.bin_rule),
+                   synthetic_kind_name(row.kind),
+                   std::to_string(row.images),
+                   std::to_string(row.m),
+                   number(visited_percent(row), 1),
+                   number(per_query(row.effort.compared, row), 0),
+                   milliseconds(row.scan.median_ms),
+                   number(per_query(row.scan_bytes, row) / double(row.images), 1),
+                   number(row.scan.median_ms / bound_ms(report, row), 2)});
+    }
+    return table;
+}
+
+TextTable cores_table(const SpeedReport& report) {
+    TextTable table(
+        {"pictures", "threads", "queries a second", "one alone, ms of wall time"}, 0);
+    for (const CoresRow& row : report.cores) {
+        table.add({std::to_string(row.images),
+                   std::to_string(row.threads),
+                   number(row.queries_per_second, 1),
+                   milliseconds(row.alone_ms)});
+    }
+    return table;
+}
+
 TextTable brute_force_table(const SpeedReport& report) {
     TextTable table({"brute force", "pictures", "bytes a picture", "ms", "p90", "max"},
                     1);
@@ -175,7 +230,8 @@ PlotAxis logarithmic_axis(std::string label, double low, double high) {
 std::string to_text(const SpeedReport& report) {
     std::string text = surroundings(report) + "\n\n" + popularity_table(report).text() +
                        '\n' + times_table(report).text() + '\n' +
-                       brute_force_table(report).text() + '\n' +
+                       effort_table(report).text() + '\n' + cores_table(report).text() +
+                       '\n' + brute_force_table(report).text() + '\n' +
                        size_table(report).text() + '\n';
     if (!report.table_4_2.rows.empty())
         text += dissertation_table(report.table_4_2).text() + '\n';
@@ -288,6 +344,39 @@ CsvTable popularity_csv(const SpeedReport& report) {
     return csv;
 }
 
+CsvTable effort_csv(const SpeedReport& report) {
+    CsvTable csv({"profile",
+                  "bin_rule",
+                  "query",
+                  "images",
+                  "m",
+                  "blocks_visited_percent",
+                  "compared",
+                  "scan_ms",
+                  "scan_bytes_per_image",
+                  "memory_ms"});
+    for (const SpeedRow& row : report.rows) {
+        csv.add({row.profile,
+                 rule_name(row.bin_rule),
+                 synthetic_kind_name(row.kind),
+                 row.images,
+                 row.m,
+                 visited_percent(row),
+                 per_query(row.effort.compared, row),
+                 row.scan.median_ms,
+                 per_query(row.scan_bytes, row) / double(row.images),
+                 bound_ms(report, row)});
+    }
+    return csv;
+}
+
+CsvTable cores_csv(const SpeedReport& report) {
+    CsvTable csv({"images", "threads", "queries_per_second", "alone_ms"});
+    for (const CoresRow& row : report.cores)
+        csv.add({row.images, row.threads, row.queries_per_second, row.alone_ms});
+    return csv;
+}
+
 CsvTable size_csv(const SpeedReport& report) {
     CsvTable csv({"images", "algorithm", "m", "bytes_per_image", "segments", "build_s"});
     for (const SizeRow& row : report.sizes) {
@@ -353,12 +442,21 @@ std::vector<OutputFile> speed_files(const SpeedReport& report) {
                    "collection, bins log2_plus_1; from the query's signature to the " +
                    std::to_string(kSpeedMatches) + " best, on one thread.") +
              panels({to_svg(plot), legend({plot})}) + times_table(report).html()},
+        {"effort",
+         "What a search looks at",
+         paragraph(
+             "The scan leaves nothing out; the memory's time is that of reading its "
+             "rows at the speed measured in this run.") +
+             effort_table(report).html()},
+        {"cores", "Cores", cores_table(report).html()},
         {"brute-force", "Brute force", brute_force_table(report).html()},
         {"memory", "Memory", size_table(report).html()},
         {"popularity", "Popularity of lists", popularity_table(report).html()}};
     std::vector<OutputFile> files = {
         {"speed.svg", standalone(to_svg(plot))},
         {"speed.csv", speed_csv(report).text()},
+        {"speed_effort.csv", effort_csv(report).text()},
+        {"speed_cores.csv", cores_csv(report).text()},
         {"speed_memory.csv", size_csv(report).text()},
         {"speed_popularity.csv", popularity_csv(report).text()}};
     if (!report.table_4_2.rows.empty()) {

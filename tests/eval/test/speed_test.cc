@@ -30,6 +30,7 @@ SpeedOptions small_options() {
     options.images = {12, 40};
     options.queries = 3;
     options.generated_photos = 4;
+    options.threads = 2;
     options.bandwidth_bytes = 1U << 16U;
     return options;
 }
@@ -73,9 +74,23 @@ TEST_F(SmallSpeedRun, AsksEverySizeMRuleAndKind) {
 TEST_F(SmallSpeedRun, AWrongAnswerIsCounted) {
     SpeedReport wrong = report();
     wrong.rows[4].mismatches = 2;
+    wrong.cores[1].mismatches = 1;
     wrong.oracle_errors = 1;
-    EXPECT_EQ(wrong.mismatches(), 3);
-    EXPECT_NE(to_text(wrong).find("3 of 162 answers differ"), std::string::npos);
+    EXPECT_EQ(wrong.mismatches(), 4);
+    EXPECT_NE(to_text(wrong).find("4 of 162 answers differ"), std::string::npos);
+}
+
+TEST_F(SmallSpeedRun, EveryNumberOfThreadsIsMeasured) {
+    std::vector<std::pair<std::int64_t, int>> measured;
+    for (const CoresRow& row : report().cores) {
+        measured.emplace_back(row.images, row.threads);
+        EXPECT_GT(row.queries_per_second, 0);
+        EXPECT_GT(row.alone_ms, 0);
+        EXPECT_EQ(row.mismatches, 0);
+    }
+    EXPECT_EQ(
+        measured,
+        (std::vector<std::pair<std::int64_t, int>>{{12, 1}, {12, 2}, {40, 1}, {40, 2}}));
 }
 
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
@@ -106,7 +121,7 @@ TEST_F(SmallSpeedRun, TablesHaveOneWidthAndFiniteNumbers) {
             }
         }
     }
-    EXPECT_EQ(tables, 3);
+    EXPECT_EQ(tables, 5);
 }
 
 TEST_F(SmallSpeedRun, TableNamesEveryMetricAndWay) {
