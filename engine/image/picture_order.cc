@@ -158,6 +158,25 @@ int CoarseSigns::bit_of(std::uint32_t key) {
     return (channel_and_sign / 2 * kCoarsePlaces + place) * 2 + channel_and_sign % 2;
 }
 
+// Without a jump for each coefficient: one in five or so is coarse, and none can be foretold.
+void CoarseSigns::add(int channel, std::span<const std::int16_t> signed_indices) {
+    constexpr unsigned kCoarseBits = (kCoarseSide - 1) * kSide + (kCoarseSide - 1);
+    // Bit 2 p + s: place p, of all with the mean, has sign s.
+    std::uint32_t found = 0;
+    for (const int signed_index : signed_indices) {
+        const auto index = static_cast<unsigned>(std::abs(signed_index));
+        const unsigned place = index / kSide * kCoarseSide + index % kCoarseSide;
+        const unsigned is_coarse = (index & ~kCoarseBits) == 0 ? 1 : 0;
+        found |= is_coarse << ((2 * place + (signed_index < 0 ? 1 : 0)) % 32);
+    }
+    const std::uint64_t bits = found >> 2;  // without the mean
+    const int first = 2 * channel * kCoarsePlaces;
+    words_[std::size_t(first) / 64] |= bits << (first % 64);
+    // Those of one channel may go on in the next word.
+    if (first % 64 > 64 - 2 * kCoarsePlaces)
+        words_[std::size_t(first) / 64 + 1] |= bits >> (64 - first % 64);
+}
+
 std::vector<std::uint32_t> picture_order(std::span<const PictureTerms> terms,
                                          std::span<const CoarseSigns> signs) {
     assert(terms.size() == signs.size());

@@ -32,6 +32,8 @@ class CoarseSigns {
     // Requires: key < kKeyCount, see coefficient_key().
     [[nodiscard]] static int bit_of(std::uint32_t key);
 
+    // Sets the bits of those of a channel's coefficients that are coarse.
+    void add(int channel, std::span<const std::int16_t> signed_indices);
     // Requires, as test(): 0 <= bit < kCount.
     void set(int bit) { words_[std::size_t(bit) / 64] |= std::uint64_t{1} << (bit % 64); }
     [[nodiscard]] bool test(int bit) const {

@@ -69,10 +69,4 @@ class Segment {
     std::shared_ptr<const void> owner_;
 };
 
-// Every posting of a segment, once: `place_of` says the place of the picture in a slot, and
-// is negative where it is left out.
-void for_each_posting(const SegmentView& view,
-                      std::span<const std::int32_t> place_of,
-                      const PostingSink& sink);
-
 }  // namespace haarmony::image
