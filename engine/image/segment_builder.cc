@@ -153,10 +153,6 @@ class Builder {
     }
 
   private:
-    struct ListSize {
-        std::array<std::uint32_t, kMaxTiers> up_to_tier{};
-    };
-
     void count_and_order();
     void classify();
     void share_coarse_rows();
@@ -167,7 +163,8 @@ class Builder {
     const PictureSource& pictures_;
     Tiers tiers_;
 
-    std::vector<ListSize> sizes_;            // [key]
+    // Of each list, [tier][key]: apart, since what neighbours have in common is their tier.
+    std::array<std::vector<std::uint32_t>, kMaxTiers> sizes_;
     std::vector<std::uint32_t> place_of_;    // [slot]
     std::vector<DirectoryEntry> directory_;  // [key]
     std::vector<std::uint32_t> dense_keys_;
@@ -178,24 +175,31 @@ class Builder {
 };
 
 void Builder::count_and_order() {
-    sizes_.resize(kKeyCount);
+    for (int t = 0; t < tiers_.count; ++t) sizes_[t].resize(kKeyCount);
     std::vector<CoarseSigns> signs(counts_.slots);
+    // Of the picture in hand: the keys of those coefficients that have a bit, one in ten or so.
+    std::array<std::uint32_t, kChannels * kMaxCoefficients + 1> coarse{};
     pictures_.give_all([&](std::uint32_t place, const PictureCoefficients& picture) {
+        std::size_t coarse_count = 0;
         for (int c = 0; c < kChannels; ++c) {
-            signs[place].add(c, picture[c]);
             std::size_t rank = 0;
             for (int t = 0; t < tiers_.count; ++t) {
                 const std::size_t end =
                     std::min(picture[c].size(), std::size_t(tiers_.m[t]));
-                for (; rank < end; ++rank)
-                    ++sizes_[coefficient_key(c, picture[c][rank])].up_to_tier[t];
+                for (; rank < end; ++rank) {
+                    const std::uint32_t key = coefficient_key(c, picture[c][rank]);
+                    ++sizes_[t][key];
+                    coarse[coarse_count] = key;
+                    coarse_count += CoarseSigns::has_bit(key) ? 1 : 0;
+                }
             }
         }
+        for (std::size_t i = 0; i < coarse_count; ++i)
+            signs[place].set(CoarseSigns::bit_of(coarse[i]));
     });
-    for (ListSize& size : sizes_) {
-        for (int t = 1; t < tiers_.count; ++t)
-            size.up_to_tier[t] += size.up_to_tier[t - 1];
-    }
+    for (int t = 1; t < tiers_.count; ++t)
+        std::ranges::transform(
+            sizes_[t], sizes_[t - 1], sizes_[t].begin(), std::plus<>());
     place_of_ = picture_order(columns_.terms, signs);
 }
 
@@ -204,14 +208,14 @@ void Builder::classify() {
     directory_.resize(kKeyCount);
     for (int tier = 0; tier < tiers_.count; ++tier) {
         for (std::uint32_t key = 0; key < kKeyCount; ++key) {
-            const std::uint64_t size = sizes_[key].up_to_tier[tier];
+            const std::uint64_t size = sizes_[tier][key];
             if (size * kDenseShare < counts_.slots || size == 0) continue;
             if (directory_[key].dense() != DirectoryEntry::kNone) continue;
             directory_[key] = DirectoryEntry::of_dense(int(dense_keys_.size()));
             dense_keys_.push_back(key);
-            counts_.dense_postings += sizes_[key].up_to_tier[tiers_.top()];
+            counts_.dense_postings += sizes_[tiers_.top()][key];
             // What is of lower tiers the pictures keep themselves.
-            if (tier > 0) counts_.own_postings += sizes_[key].up_to_tier[tier - 1];
+            if (tier > 0) counts_.own_postings += sizes_[tier - 1][key];
         }
         counts_.dense[tier] = static_cast<std::uint32_t>(dense_keys_.size());
     }
@@ -224,7 +228,7 @@ void Builder::share_coarse_rows() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> lists;  // size, key
     std::uint64_t postings = 0;
     for (std::uint32_t key = 0; key < kKeyCount; ++key) {
-        const std::uint32_t size = sizes_[key].up_to_tier[tiers_.top()];
+        const std::uint32_t size = sizes_[tiers_.top()][key];
         if (size == 0 || directory_[key].dense() != DirectoryEntry::kNone) continue;
         lists.emplace_back(size, key);
         postings += size;
@@ -271,7 +275,7 @@ void Builder::fill_columns() {
 void Builder::fill_blocks() {
     std::vector<std::uint32_t> list_sizes;
     for (const std::uint32_t key : dense_keys_)
-        list_sizes.push_back(sizes_[key].up_to_tier[tiers_.top()]);
+        list_sizes.push_back(sizes_[tiers_.top()][key]);
     RowWriter rows(spans_, list_sizes);
     std::size_t slot = 0;
     std::uint32_t own = 0;

@@ -1,5 +1,5 @@
 // Builds the bytes of a segment from the coefficients of its pictures.
-//   picture_source.h, picture_order.h, block_rows.h -> [segment_builder.h] -> segment_layout.h
+//   picture_source.h, picture_order.h, row_writer.h -> [segment_builder.h] -> segment_layout.h
 //
 // Pictures are looked at twice: as they come, to count the lists and to find their order,
 // and then in that order. So all bytes are written from the front to the back, a block of
@@ -45,8 +45,8 @@ struct BuiltSegment {
     AlignedBytes bytes;
 };
 
-// Requires: 1 .. kMaxSegmentSlots pictures, with at most index_m coefficients of
-// each channel. Cost: memory of the segment, and some 70 bytes a picture while it is built.
+// Requires: 1 .. kMaxSegmentSlots pictures, with at most index_m coefficients of each
+// channel. Cost: memory of the segment, and some 50 bytes a picture while it is built.
 [[nodiscard]] BuiltSegment build_segment(int index_m,
                                          const PictureColumns& columns,
                                          const PictureSource& pictures);

@@ -252,28 +252,9 @@ TEST(CoarseSigns, HaveNoBitForTheMean) {
     }
 }
 
-TEST(CoarseSigns, AddSetsTheBitsOfTheCoarseOnesOfAChannel) {
-    std::mt19937 random(429);
-    for (int run = 0; run < 300; ++run) {
-        CoarseSigns added;
-        CoarseSigns expected;
-        for (int channel = 0; channel < kChannels; ++channel) {
-            std::vector<std::int16_t> signed_indices;
-            for (int i = 0; i < run % 40; ++i) {
-                // Half of them in the first rows and columns, few of them coarse.
-                const int index = i % 2 == 0
-                                      ? 1 + int(random() % (kCoefficientCount - 1))
-                                      : int(random() % 6) * kSide + 1 + int(random() % 5);
-                signed_indices.push_back(
-                    static_cast<std::int16_t>(random() % 2 == 0 ? index : -index));
-                const int bit =
-                    CoarseSigns::bit_of(coefficient_key(channel, signed_indices.back()));
-                if (bit >= 0) expected.set(bit);
-            }
-            added.add(channel, signed_indices);
-        }
-        ASSERT_EQ(added.words(), expected.words()) << "run " << run;
-    }
+TEST(CoarseSigns, HaveABitWhereTheySay) {
+    for (std::uint32_t key = 0; key < std::uint32_t{kKeyCount}; ++key)
+        ASSERT_EQ(CoarseSigns::has_bit(key), CoarseSigns::bit_of(key) >= 0) << key;
 }
 
 TEST(CoarseSigns, HoldWhatWasSet) {
