@@ -8,12 +8,14 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <new>
 #include <queue>
 #include <utility>
 
 #include "engine/image/picture_order.h"
 #include "engine/image/row_writer.h"
+#include "engine/image/sorted_channel.h"
 
 namespace haarmony::image {
 namespace {
@@ -43,94 +45,6 @@ AlignedBytes allocate(std::size_t size) {
     ask_for_large_pages(bytes.span());
     std::memset(bytes.bytes.get(), 0, size);
     return bytes;
-}
-
-struct DensePosting {
-    std::uint16_t list = 0;
-    std::uint8_t rank = 0;
-    std::uint8_t tier = 0;  // of the rank
-};
-
-// A picture's coefficients of one channel, apart by where they are kept.
-class SortedChannel {
-  public:
-    SortedChannel(const Tiers& tiers,
-                  const std::array<std::uint32_t, kMaxTiers>& dense_in_tier,
-                  std::span<const DirectoryEntry> directory)
-        : tiers_(tiers), dense_in_tier_(dense_in_tier), directory_(directory) {}
-
-    // Makes all that follows. Requires: at most kMaxCoefficients, each with an entry.
-    void sort(int channel, std::span<const std::int16_t> signed_indices);
-
-    [[nodiscard]] std::span<const DensePosting> dense() const {
-        return std::span(dense_).first(dense_count_);
-    }
-    [[nodiscard]] std::span<const std::uint16_t> coarse_rows() const {
-        return std::span(coarse_).first(coarse_count_);
-    }
-    // What the picture keeps itself, in falling order of magnitude.
-    [[nodiscard]] std::span<const std::int16_t> own() const {
-        return std::span(own_).first(own_count_);
-    }
-    [[nodiscard]] std::span<const std::uint8_t> own_ranks() const {
-        return std::span(own_ranks_).first(own_count_);
-    }
-    [[nodiscard]] const OwnCounts::value_type& own_in_tier() const {
-        return own_in_tier_;
-    }
-
-  private:
-    const Tiers& tiers_;
-    const std::array<std::uint32_t, kMaxTiers>& dense_in_tier_;
-    std::span<const DirectoryEntry> directory_;  // [key]
-
-    std::array<std::uint16_t, kMaxCoefficients> entries_{};
-    std::array<DensePosting, kMaxCoefficients> dense_{};
-    std::array<std::uint16_t, kMaxCoefficients> coarse_{};
-    std::array<std::int16_t, kMaxCoefficients> own_{};
-    std::array<std::uint8_t, kMaxCoefficients> own_ranks_{};
-    std::size_t dense_count_ = 0;
-    std::size_t coarse_count_ = 0;
-    std::size_t own_count_ = 0;
-    OwnCounts::value_type own_in_tier_{};
-};
-
-// Nothing here is decided by a jump: whether a coefficient is dense cannot be foretold, and a
-// jump that was taken wrongly costs as much as ten coefficients. So each is written into
-// every list, and stays in those whose count goes on.
-void SortedChannel::sort(int channel, std::span<const std::int16_t> signed_indices) {
-    const std::uint32_t first_dense = DirectoryEntry::of_dense(0).bits();
-    const std::uint32_t first_coarse = DirectoryEntry::of_coarse(0).bits();
-    // On their own, so that many are on their way from the far caches at once.
-    for (std::size_t rank = 0; rank < signed_indices.size(); ++rank)
-        entries_[rank] =
-            directory_[coefficient_key(channel, signed_indices[rank])].bits();
-    std::size_t dense = 0;
-    std::size_t coarse = 0;
-    std::size_t own = 0;
-    std::size_t rank = 0;
-    for (int t = 0; t < kMaxTiers; ++t) {
-        const std::size_t end =
-            t < tiers_.count ? std::min(signed_indices.size(), std::size_t(tiers_.m[t]))
-                             : rank;
-        for (; rank < end; ++rank) {
-            const std::uint32_t entry = entries_[rank];
-            dense_[dense] = {static_cast<std::uint16_t>(entry - first_dense),
-                             static_cast<std::uint8_t>(rank),
-                             static_cast<std::uint8_t>(t)};
-            coarse_[coarse] = static_cast<std::uint16_t>(entry - first_coarse);
-            own_[own] = signed_indices[rank];
-            own_ranks_[own] = static_cast<std::uint8_t>(rank);
-            dense += entry < first_coarse ? 1 : 0;
-            coarse += entry < first_coarse ? 0 : 1;
-            // Lists that are dense in this tier stand first, coarse ones last.
-            own += entry - first_dense < dense_in_tier_[t] ? 0 : 1;
-        }
-        own_in_tier_[t] = static_cast<std::uint8_t>(own);
-    }
-    dense_count_ = dense;
-    coarse_count_ = coarse;
-    own_count_ = own;
 }
 
 class Builder {
