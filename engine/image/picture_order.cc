@@ -4,7 +4,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "engine/image/bit_sums.h"
@@ -35,11 +34,20 @@ double reference_weight(const Profile& profile, int bit) {
     return weight(BinRule::kLog2Plus1) + weight(BinRule::kLiteral) / 8.0;
 }
 
+// A picture and all that its place depends on, in one piece: below the first splits the
+// pictures of a node stand anywhere in memory.
+struct Picture {
+    CoarseSigns signs;
+    std::array<std::int32_t, kChannels> average{};
+    std::uint32_t place = 0;
+};
+
 class KdTree {
   public:
-    KdTree(std::span<const PictureTerms> terms, std::span<const CoarseSigns> signs)
-        : terms_(terms), signs_(signs), order_(signs.size()) {
-        std::iota(order_.begin(), order_.end(), 0U);
+    KdTree(std::span<const PictureTerms> terms, std::span<const CoarseSigns> signs) {
+        order_.reserve(signs.size());
+        for (std::uint32_t place = 0; place < signs.size(); ++place)
+            order_.push_back({signs[place], terms[place].average, place});
         const Profile scanned = *built_in_profile("scanned");
         for (int c = 0; c < kChannels; ++c)
             average_weights_[c] = scanned.weights[c][0] / double{kAverageOne};
@@ -49,11 +57,14 @@ class KdTree {
 
     std::vector<std::uint32_t> order() {
         split(order_);
-        return std::move(order_);
+        std::vector<std::uint32_t> places;
+        places.reserve(order_.size());
+        for (const Picture& picture : order_) places.push_back(picture.place);
+        return places;
     }
 
   private:
-    using Pictures = std::span<std::uint32_t>;
+    using Pictures = std::span<Picture>;
 
     // Depth is bounded: a sign splits a path at most once, and an average halves it, but for
     // half a block.
@@ -82,12 +93,14 @@ class KdTree {
         if (best_average >= 0) {
             at = block_end_near_middle(pictures);
             std::ranges::nth_element(
-                pictures, pictures.begin() + std::ptrdiff_t(at), {}, [&](auto picture) {
-                    return terms_[picture].average[best_average];
-                });
+                pictures,
+                pictures.begin() + std::ptrdiff_t(at),
+                {},
+                [&](const Picture& picture) { return picture.average[best_average]; });
         } else if (best_sign >= 0) {
             const auto with = std::ranges::partition(
-                pictures, [&](auto picture) { return !signs_[picture].test(best_sign); });
+                pictures,
+                [&](const Picture& picture) { return !picture.signs.test(best_sign); });
             at = pictures.size() - with.size();
         } else {
             return;  // all alike, as far as the sample shows
@@ -109,11 +122,11 @@ class KdTree {
         sampled_.clear();
         const std::size_t count = std::min(pictures.size(), kSample);
         for (std::size_t i = 0; i < count; ++i)
-            sampled_.push_back(pictures[i * pictures.size() / count]);
+            sampled_.push_back(&pictures[i * pictures.size() / count]);
         counts_ = {};
-        for (const std::uint32_t picture : sampled_) {
+        for (const Picture* const picture : sampled_) {
             int base = 0;
-            for (std::uint64_t word : signs_[picture].words()) {
+            for (std::uint64_t word : picture->signs.words()) {
                 for (; word != 0; word &= word - 1)
                     ++counts_[base + std::countr_zero(word)];
                 base += 64;
@@ -124,8 +137,8 @@ class KdTree {
     // Mean distance from the median, of the sample.
     double deviation(int channel) {
         values_.clear();
-        for (const std::uint32_t picture : sampled_)
-            values_.push_back(terms_[picture].average[channel]);
+        for (const Picture* const picture : sampled_)
+            values_.push_back(picture->average[channel]);
         const auto middle = values_.begin() + std::ptrdiff_t(values_.size() / 2);
         std::ranges::nth_element(values_, middle);
         const double median = *middle;
@@ -134,13 +147,11 @@ class KdTree {
         return sum / double(values_.size());
     }
 
-    std::span<const PictureTerms> terms_;
-    std::span<const CoarseSigns> signs_;
     std::array<double, kChannels> average_weights_{};
     std::array<double, CoarseSigns::kCount> sign_weights_{};
-    std::vector<std::uint32_t> order_;
-    // Of the node in hand.
-    std::vector<std::uint32_t> sampled_;
+    std::vector<Picture> order_;
+    // Of the node in hand, before it is split.
+    std::vector<const Picture*> sampled_;
     std::vector<std::int32_t> values_;
     std::array<int, 128> counts_{};  // one for each bit of CoarseSigns::words()
 };

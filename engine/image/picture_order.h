@@ -32,6 +32,12 @@ class CoarseSigns {
     // Requires: key < kKeyCount, see coefficient_key().
     [[nodiscard]] static int bit_of(std::uint32_t key);
 
+    // Whether it has one; the same, but without a jump. Requires: as bit_of().
+    [[nodiscard]] static bool has_bit(std::uint32_t key) {
+        const std::uint32_t index = key % kCoefficientCount;
+        return ((index & ~(3U * kSide + 3U)) == 0) & (index != 0);
+    }
+
     // Requires, as test(): 0 <= bit < kCount.
     void set(int bit) { words_[std::size_t(bit) / 64] |= std::uint64_t{1} << (bit % 64); }
     [[nodiscard]] bool test(int bit) const {

@@ -1,89 +1,16 @@
 #include "engine/image/segment.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <functional>
 #include <utility>
 
+#include "engine/image/picture_source.h"
+#include "engine/image/segment_pictures.h"
+
 namespace haarmony::image {
-namespace {
-
-constexpr std::int32_t kLeftOut = -1;
-
-// Postings on their way to a sink, some at a time.
-class Outbox {
-  public:
-    explicit Outbox(const PostingSink& sink) : sink_(sink) { waiting_.reserve(kSome); }
-
-    void send(const PlacedPosting& posting) {
-        waiting_.push_back(posting);
-        if (waiting_.size() == kSome) flush();
-    }
-    void flush() {
-        if (!waiting_.empty()) sink_(waiting_);
-        waiting_.clear();
-    }
-
-  private:
-    static constexpr std::size_t kSome = 2048;
-    const PostingSink& sink_;
-    std::vector<PlacedPosting> waiting_;
-};
-
-void send_dense(const SegmentView& view,
-                std::span<const std::int32_t> place_of,
-                Outbox& out) {
-    const std::size_t stride = view.counts.row_words();
-    const std::size_t words = view.counts.block_words();
-    const auto rows = view.rows[std::size_t(view.tiers.top())];
-    std::size_t rank = 0;
-    for (std::size_t list = 0; list < view.dense_keys.size(); ++list) {
-        for (std::size_t word = 0; word < words; ++word) {
-            for (std::uint64_t bits = rows[list * stride + word]; bits != 0;
-                 bits &= bits - 1) {
-                const std::int32_t place =
-                    place_of[word * 64 + std::size_t(std::countr_zero(bits))];
-                const std::uint8_t its_rank = view.dense_ranks[rank++];
-                if (place != kLeftOut)
-                    out.send({view.dense_keys[list], std::uint32_t(place), its_rank});
-            }
-        }
-    }
-}
-
-// Those of lists that are dense in a tier above are among the dense ones already.
-void send_own(const SegmentView& view,
-              std::span<const std::int32_t> place_of,
-              Outbox& out) {
-    const auto top = std::size_t(view.tiers.top());
-    for (std::size_t slot = 0; slot < view.counts.slots; ++slot) {
-        const std::int32_t place = place_of[slot];
-        if (place == kLeftOut) continue;
-        std::size_t at = view.own_begin[slot];
-        for (int c = 0; c < kChannels; ++c) {
-            for (const std::size_t end = at + view.own_counts[slot][c][top]; at < end;
-                 ++at) {
-                const std::uint32_t key = coefficient_key(c, view.own[at]);
-                if (DirectoryEntry(view.directory[key]).dense() == DirectoryEntry::kNone)
-                    out.send({key, std::uint32_t(place), view.own_ranks[at]});
-            }
-        }
-    }
-}
-
-}  // namespace
 
 int LiveSegment::live() const { return segment->size() - removed_count(removed); }
-
-void for_each_posting(const SegmentView& view,
-                      std::span<const std::int32_t> place_of,
-                      const PostingSink& sink) {
-    Outbox out(sink);
-    send_dense(view, place_of, out);
-    send_own(view, place_of, out);
-    out.flush();
-}
 
 Segment::Segment(BuiltSegment built) {
     const std::span<const std::byte> bytes = built.bytes.span();
@@ -112,24 +39,8 @@ std::shared_ptr<const Segment> Segment::from_records(
     }
     assert(std::ranges::adjacent_find(columns.ids, std::greater_equal<>()) ==
            columns.ids.end());
-    const auto postings = [&](std::span<const std::uint32_t> places,
-                              const PostingSink& sink) {
-        std::vector<PlacedPosting> of_picture;
-        for (const std::uint32_t place : places) {
-            of_picture.clear();
-            for (int c = 0; c < kChannels; ++c) {
-                std::uint8_t rank = 0;
-                for (const std::int16_t signed_index :
-                     records[place]->signature.channels[c].largest(index_m)) {
-                    of_picture.push_back(
-                        {coefficient_key(c, signed_index), place, rank++});
-                }
-            }
-            sink(of_picture);
-        }
-    };
     return std::shared_ptr<const Segment>(
-        new Segment(build_segment(index_m, columns, postings)));
+        new Segment(build_segment(index_m, columns, RecordPictures(records, index_m))));
 }
 
 std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts) {
@@ -139,12 +50,12 @@ std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts
         std::uint32_t slot;
     };
     std::vector<Source> sources;
-    std::vector<std::vector<std::int32_t>> place_of;
+    std::vector<SegmentPictures::Part> read;
     for (std::uint32_t p = 0; p < parts.size(); ++p) {
         const Segment& segment = *parts[p].segment;
-        // Whole blocks: a row has bits for slots beyond the last, though none is set.
-        place_of.emplace_back(std::size_t(segment.view_.counts.blocks()) * kBlockSlots,
-                              kLeftOut);
+        read.push_back(
+            {segment.view(),
+             std::vector(std::size_t(segment.size()), SegmentPictures::kLeftOut)});
         for (int slot = 0; slot < segment.size(); ++slot) {
             if (is_removed(parts[p].removed, slot)) continue;
             sources.push_back({segment.id(slot), p, std::uint32_t(slot)});
@@ -157,20 +68,16 @@ std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts
     columns.ids.reserve(sources.size());
     columns.terms.reserve(sources.size());
     for (const Source& source : sources) {
-        place_of[source.part][source.slot] =
+        read[source.part].place_of[source.slot] =
             static_cast<std::int32_t>(columns.ids.size());
         columns.ids.push_back(source.id);
         columns.terms.push_back(parts[source.part].segment->view_.terms[source.slot]);
     }
-    const auto index_m = parts[0].segment->view_.counts.index_m;
-    const auto postings = [&](std::span<const std::uint32_t>, const PostingSink& sink) {
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            assert(parts[p].segment->view_.counts.index_m == index_m);
-            for_each_posting(parts[p].segment->view_, place_of[p], sink);
-        }
-    };
+    std::vector<Source>().swap(sources);  // nothing below needs its 16 bytes a picture
+    const auto index_m = static_cast<int>(parts[0].segment->view_.counts.index_m);
+    const SegmentPictures pictures(std::move(read), columns.ids.size());
     return std::shared_ptr<const Segment>(
-        new Segment(build_segment(static_cast<int>(index_m), columns, postings)));
+        new Segment(build_segment(index_m, columns, pictures)));
 }
 
 std::optional<int> Segment::find(ImageId id) const {

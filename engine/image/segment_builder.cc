@@ -1,19 +1,21 @@
 #include "engine/image/segment_builder.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <new>
-#include <numeric>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 #include "engine/image/picture_order.h"
+#include "engine/image/row_writer.h"
+#include "engine/image/sorted_channel.h"
 
 namespace haarmony::image {
 namespace {
@@ -27,70 +29,59 @@ constexpr std::uint32_t kDenseShare = 18;
 // five or so has one.
 constexpr double kCoarseFill = 0.05;
 
+// The rows of a block stand pages apart: with pages of 4 KB each is a miss of its own in the
+// table of pages, for whoever writes and for every search. Where the system has no larger
+// ones, or refuses, nothing is lost but time.
+void ask_for_large_pages(std::span<std::byte> bytes) {
+    constexpr std::size_t kLargePage = std::size_t{1} << 21;
+    void* begin = bytes.data();
+    std::size_t size = bytes.size();
+    if (std::align(kLargePage, kLargePage, begin, size) == nullptr) return;
+    madvise(begin, size / kLargePage * kLargePage, MADV_HUGEPAGE);
+}
+
 AlignedBytes allocate(std::size_t size) {
     AlignedBytes bytes{{new (kAlignment) std::byte[size], {}}, size};
+    ask_for_large_pages(bytes.span());
     std::memset(bytes.bytes.get(), 0, size);
     return bytes;
 }
 
 class Builder {
   public:
-    Builder(int index_m, const PictureColumns& columns, const PostingSource& postings)
-        : columns_(columns), postings_(postings), tiers_(tiers_of(index_m)) {
+    Builder(int index_m, const PictureColumns& columns, const PictureSource& pictures)
+        : columns_(columns), pictures_(pictures), tiers_(tiers_of(index_m)) {
         counts_.index_m = static_cast<std::uint32_t>(index_m);
         counts_.slots = static_cast<std::uint32_t>(columns.ids.size());
-        for (int rank = 0; rank < index_m; ++rank)
-            tier_of_rank_[rank] = static_cast<std::uint8_t>(tiers_.holding(rank + 1));
     }
 
     BuiltSegment build() {
         count_and_order();
         classify();
         share_coarse_rows();
-        count_own();
         bytes_ = allocate(segment_bytes(counts_).total);
         spans_ = spans_of(counts_, bytes_.span());
         fill_columns();
-        fill_bits();
-        fill_dense_rank_begin();
-        fill_ranks_and_own();
-        sort_own();
+        fill_blocks();
         return {counts_, std::move(bytes_)};
     }
 
   private:
-    struct ListSize {
-        std::array<std::uint32_t, kMaxTiers> up_to_tier{};
-    };
-
     void count_and_order();
     void classify();
     void share_coarse_rows();
-    void count_own();
     void fill_columns();
-    void fill_bits();
-    void fill_dense_rank_begin();
-    void fill_ranks_and_own();
-    void sort_own();
-
-    // Whether the picture itself has to keep the posting.
-    [[nodiscard]] bool is_own(const DirectoryEntry& entry, int tier) const {
-        return entry.dense() == DirectoryEntry::kNone ||
-               tier < dense_from_[entry.dense()];
-    }
+    void fill_blocks();
 
     const PictureColumns& columns_;
-    const PostingSource& postings_;
+    const PictureSource& pictures_;
     Tiers tiers_;
-    std::array<std::uint8_t, kMaxCoefficients> tier_of_rank_{};
 
-    std::vector<ListSize> sizes_;            // [key]
+    // Of each list, [tier][key]: apart, since what neighbours have in common is their tier.
+    std::array<std::vector<std::uint32_t>, kMaxTiers> sizes_;
     std::vector<std::uint32_t> place_of_;    // [slot]
-    std::vector<std::uint32_t> slot_of_;     // [place]
     std::vector<DirectoryEntry> directory_;  // [key]
-    std::vector<int> dense_from_;            // [dense]: the lowest tier
     std::vector<std::uint32_t> dense_keys_;
-    std::vector<OwnCounts> own_counts_;  // [slot]
 
     SegmentCounts counts_;
     AlignedBytes bytes_;
@@ -98,28 +89,32 @@ class Builder {
 };
 
 void Builder::count_and_order() {
-    sizes_.resize(kKeyCount);
-    std::vector<std::int8_t> coarse_bit(kKeyCount);
-    for (std::uint32_t key = 0; key < kKeyCount; ++key)
-        coarse_bit[key] = static_cast<std::int8_t>(CoarseSigns::bit_of(key));
+    for (int t = 0; t < tiers_.count; ++t) sizes_[t].resize(kKeyCount);
     std::vector<CoarseSigns> signs(counts_.slots);
-    place_of_.resize(counts_.slots);
-    std::iota(place_of_.begin(), place_of_.end(), 0U);
-    postings_(place_of_, [&](std::span<const PlacedPosting> some) {
-        for (const PlacedPosting& posting : some) {
-            ++sizes_[posting.key].up_to_tier[tier_of_rank_[posting.rank]];
-            const int bit = coarse_bit[posting.key];
-            if (bit >= 0) signs[posting.place].set(bit);
+    // Of the picture in hand: the keys of those coefficients that have a bit, one in ten or so.
+    std::array<std::uint32_t, kChannels * kMaxCoefficients + 1> coarse{};
+    pictures_.give_all([&](std::uint32_t place, const PictureCoefficients& picture) {
+        std::size_t coarse_count = 0;
+        for (int c = 0; c < kChannels; ++c) {
+            std::size_t rank = 0;
+            for (int t = 0; t < tiers_.count; ++t) {
+                const std::size_t end =
+                    std::min(picture[c].size(), std::size_t(tiers_.m[t]));
+                for (; rank < end; ++rank) {
+                    const std::uint32_t key = coefficient_key(c, picture[c][rank]);
+                    ++sizes_[t][key];
+                    coarse[coarse_count] = key;
+                    coarse_count += CoarseSigns::has_bit(key) ? 1 : 0;
+                }
+            }
         }
+        for (std::size_t i = 0; i < coarse_count; ++i)
+            signs[place].set(CoarseSigns::bit_of(coarse[i]));
     });
-    for (ListSize& size : sizes_) {
-        for (int t = 1; t < tiers_.count; ++t)
-            size.up_to_tier[t] += size.up_to_tier[t - 1];
-    }
+    for (int t = 1; t < tiers_.count; ++t)
+        std::ranges::transform(
+            sizes_[t], sizes_[t - 1], sizes_[t].begin(), std::plus<>());
     place_of_ = picture_order(columns_.terms, signs);
-    slot_of_.resize(place_of_.size());
-    for (std::uint32_t slot = 0; slot < place_of_.size(); ++slot)
-        slot_of_[place_of_[slot]] = slot;
 }
 
 // Dense lists stand in the order of the lowest tier in which they are dense.
@@ -127,13 +122,14 @@ void Builder::classify() {
     directory_.resize(kKeyCount);
     for (int tier = 0; tier < tiers_.count; ++tier) {
         for (std::uint32_t key = 0; key < kKeyCount; ++key) {
-            const std::uint64_t size = sizes_[key].up_to_tier[tier];
+            const std::uint64_t size = sizes_[tier][key];
             if (size * kDenseShare < counts_.slots || size == 0) continue;
             if (directory_[key].dense() != DirectoryEntry::kNone) continue;
             directory_[key] = DirectoryEntry::of_dense(int(dense_keys_.size()));
             dense_keys_.push_back(key);
-            dense_from_.push_back(tier);
-            counts_.dense_postings += sizes_[key].up_to_tier[tiers_.top()];
+            counts_.dense_postings += sizes_[tiers_.top()][key];
+            // What is of lower tiers the pictures keep themselves.
+            if (tier > 0) counts_.own_postings += sizes_[tier - 1][key];
         }
         counts_.dense[tier] = static_cast<std::uint32_t>(dense_keys_.size());
     }
@@ -146,11 +142,12 @@ void Builder::share_coarse_rows() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> lists;  // size, key
     std::uint64_t postings = 0;
     for (std::uint32_t key = 0; key < kKeyCount; ++key) {
-        const std::uint32_t size = sizes_[key].up_to_tier[tiers_.top()];
+        const std::uint32_t size = sizes_[tiers_.top()][key];
         if (size == 0 || directory_[key].dense() != DirectoryEntry::kNone) continue;
         lists.emplace_back(size, key);
         postings += size;
     }
+    counts_.own_postings += postings;
     std::ranges::sort(lists, std::greater<>());
     counts_.coarse = static_cast<std::uint32_t>(
         std::ceil(double(postings) / (kCoarseFill * counts_.slots)));
@@ -164,20 +161,6 @@ void Builder::share_coarse_rows() {
         directory_[key] = DirectoryEntry::of_coarse(row);
         rows.emplace(fill + size, row);
     }
-}
-
-void Builder::count_own() {
-    own_counts_.resize(counts_.slots);
-    postings_(place_of_, [&](std::span<const PlacedPosting> some) {
-        for (const PlacedPosting& posting : some) {
-            const int tier = tier_of_rank_[posting.rank];
-            if (!is_own(directory_[posting.key], tier)) continue;
-            const int channel = int(posting.key / (2 * kCoefficientCount));
-            ++counts_.own_postings;
-            for (int t = tier; t < kMaxTiers; ++t)
-                ++own_counts_[slot_of_[posting.place]][channel][t];
-        }
-    });
 }
 
 void Builder::fill_columns() {
@@ -203,98 +186,31 @@ void Builder::fill_columns() {
     }
 }
 
-void Builder::fill_bits() {
-    const std::size_t row_words = counts_.row_words();
-    const std::size_t presence_words = counts_.presence_words();
-    const std::size_t coarse_words = counts_.coarse_row_words();
-    const auto set = [](std::span<std::uint64_t> row, std::size_t bit) {
-        row[bit / 64] |= std::uint64_t{1} << (bit % 64);
-    };
-    postings_(place_of_, [&](std::span<const PlacedPosting> some) {
-        for (const PlacedPosting& posting : some) {
-            const DirectoryEntry entry = directory_[posting.key];
-            const std::uint32_t slot = slot_of_[posting.place];
-            if (entry.dense() == DirectoryEntry::kNone) {
-                const auto row = std::size_t(entry.coarse());
-                set(spans_.coarse_rows.subspan(row * coarse_words), slot / kCoarseSlots);
-                continue;
-            }
-            const auto list = std::size_t(entry.dense());
-            for (int t = std::max<int>(tier_of_rank_[posting.rank], dense_from_[list]);
-                 t < tiers_.count;
-                 ++t) {
-                set(spans_.rows[t].subspan(list * row_words), slot);
-                set(spans_.presence[t].subspan(list * presence_words),
-                    slot / kBlockSlots);
-            }
+void Builder::fill_blocks() {
+    std::vector<std::uint32_t> list_sizes;
+    for (const std::uint32_t key : dense_keys_)
+        list_sizes.push_back(sizes_[tiers_.top()][key]);
+    RowWriter rows(spans_, list_sizes);
+    std::size_t slot = 0;
+    std::uint32_t own = 0;
+    SortedChannel channel(tiers_, counts_.dense, directory_);
+    pictures_.give(place_of_, [&](std::uint32_t, const PictureCoefficients& picture) {
+        spans_.own_begin[slot] = own;
+        for (int c = 0; c < kChannels; ++c) {
+            channel.sort(c, picture[c]);
+            for (const DensePosting& posting : channel.dense())
+                rows.put_dense(posting.list, posting.rank, posting.tier);
+            for (const std::uint16_t row : channel.coarse_rows()) rows.put_coarse(row);
+            std::ranges::copy(channel.own(), spans_.own.begin() + own);
+            std::ranges::copy(channel.own_ranks(), spans_.own_ranks.begin() + own);
+            spans_.own_counts[slot][c] = channel.own_in_tier();
+            own += static_cast<std::uint32_t>(channel.own().size());
         }
+        rows.next_slot();
+        ++slot;
     });
-}
-
-void Builder::fill_dense_rank_begin() {
-    std::uint32_t next = 0;
-    const auto rows = spans_.rows[std::size_t(tiers_.top())];
-    const auto blocks = static_cast<std::size_t>(counts_.blocks());
-    for (std::size_t list = 0; list < dense_keys_.size(); ++list) {
-        for (std::size_t block = 0; block < blocks; ++block) {
-            spans_.dense_rank_begin[list * blocks + block] = next;
-            const auto bits = rows.subspan(
-                list * counts_.row_words() + block * kBlockWords, kBlockWords);
-            for (const std::uint64_t word : bits)
-                next += static_cast<std::uint32_t>(std::popcount(word));
-        }
-    }
-    assert(next == counts_.dense_postings);
-}
-
-void Builder::fill_ranks_and_own() {
-    std::ranges::copy(own_counts_, spans_.own_counts.begin());
-    std::uint32_t next = 0;
-    for (std::size_t slot = 0; slot < counts_.slots; ++slot) {
-        spans_.own_begin[slot] = next;
-        for (const auto& tiers : own_counts_[slot]) next += tiers[kMaxTiers - 1];
-    }
-    spans_.own_begin[counts_.slots] = next;
-
-    std::vector<std::array<std::uint8_t, kChannels>> filled(counts_.slots);
-    postings_(place_of_, [&](std::span<const PlacedPosting> some) {
-        for (const PlacedPosting& posting : some) {
-            const DirectoryEntry entry = directory_[posting.key];
-            const std::uint32_t slot = slot_of_[posting.place];
-            if (entry.dense() != DirectoryEntry::kNone) {
-                const auto list = static_cast<std::size_t>(entry.dense());
-                spans_.dense_ranks[dense_rank_place(spans_, list, slot)] = posting.rank;
-            }
-            if (!is_own(entry, tier_of_rank_[posting.rank])) continue;
-            const int channel = int(posting.key / (2 * kCoefficientCount));
-            std::size_t place = spans_.own_begin[slot] + filled[slot][channel]++;
-            for (int c = 0; c < channel; ++c)
-                place += own_counts_[slot][c][kMaxTiers - 1];
-            const int index = int(posting.key % kCoefficientCount);
-            const bool negative = posting.key / kCoefficientCount % 2 != 0;
-            spans_.own[place] = static_cast<std::int16_t>(negative ? -index : index);
-            spans_.own_ranks[place] = posting.rank;
-        }
-    });
-}
-
-// Postings come in any order; a picture keeps its own by rank.
-void Builder::sort_own() {
-    std::vector<std::pair<std::uint8_t, std::int16_t>> list;
-    for (std::size_t slot = 0; slot < counts_.slots; ++slot) {
-        std::size_t begin = spans_.own_begin[slot];
-        for (const auto& tiers : own_counts_[slot]) {
-            const std::size_t count = tiers[kMaxTiers - 1];
-            const auto ranks = spans_.own_ranks.subspan(begin, count);
-            const auto own = spans_.own.subspan(begin, count);
-            begin += count;
-            if (std::ranges::is_sorted(ranks)) continue;
-            list.clear();
-            for (std::size_t i = 0; i < count; ++i) list.emplace_back(ranks[i], own[i]);
-            std::ranges::sort(list);
-            for (std::size_t i = 0; i < count; ++i) std::tie(ranks[i], own[i]) = list[i];
-        }
-    }
+    assert(slot == counts_.slots && own == counts_.own_postings);
+    spans_.own_begin[slot] = own;
 }
 
 }  // namespace
@@ -305,9 +221,9 @@ void AlignedBytesDeleter::operator()(std::byte* bytes) const {
 
 BuiltSegment build_segment(int index_m,
                            const PictureColumns& columns,
-                           const PostingSource& postings) {
+                           const PictureSource& pictures) {
     assert(!columns.ids.empty() && columns.ids.size() <= std::size_t{kMaxSegmentSlots});
-    return Builder(index_m, columns, postings).build();
+    return Builder(index_m, columns, pictures).build();
 }
 
 }  // namespace haarmony::image

@@ -1,5 +1,9 @@
-// Builds the bytes of a segment from the postings of its pictures.
-//   picture_order.h -> [segment_builder.h] -> segment_layout.h
+// Builds the bytes of a segment from the coefficients of its pictures.
+//   picture_source.h, picture_order.h, row_writer.h -> [segment_builder.h] -> segment_layout.h
+//
+// Pictures are looked at twice: as they come, to count the lists and to find their order,
+// and then in that order. So all bytes are written from the front to the back, a block of
+// pictures at a time, and none is read again.
 //
 // Shape   pictures have places, 0 .. count - 1, in rising order of id; their slots follow
 //         from picture_order.h.
@@ -8,35 +12,22 @@
 // Source  sec. 4.3.1 (search arrays).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "engine/core/ids.h"
+#include "engine/image/picture_source.h"
 #include "engine/image/segment_layout.h"
 
 namespace haarmony::image {
-
-struct PlacedPosting {
-    std::uint32_t key = 0;
-    std::uint32_t place = 0;  // of the picture
-    std::uint8_t rank = 0;    // 0..index_m - 1
-};
 
 struct PictureColumns {
     std::vector<ImageId> ids;  // rising
     std::vector<PictureTerms> terms;
 };
-
-// Gives every posting, some at a time, in any order; best list by list, or picture by picture
-// in the order of `places`, so that neighbouring writes meet.
-using PostingSink = std::function<void(std::span<const PlacedPosting>)>;
-using PostingSource =
-    std::function<void(std::span<const std::uint32_t> places, const PostingSink& sink)>;
 
 // Memory that is aligned as segments want it.
 struct AlignedBytesDeleter {
@@ -54,10 +45,10 @@ struct BuiltSegment {
     AlignedBytes bytes;
 };
 
-// Requires: 1 .. kMaxSegmentSlots pictures. Cost: the source is asked three times, seldom
-// once more.
+// Requires: 1 .. kMaxSegmentSlots pictures, with at most index_m coefficients of each
+// channel. Cost: memory of the segment, and some 50 bytes a picture while it is built.
 [[nodiscard]] BuiltSegment build_segment(int index_m,
                                          const PictureColumns& columns,
-                                         const PostingSource& postings);
+                                         const PictureSource& pictures);
 
 }  // namespace haarmony::image

@@ -252,6 +252,11 @@ TEST(CoarseSigns, HaveNoBitForTheMean) {
     }
 }
 
+TEST(CoarseSigns, HaveABitWhereTheySay) {
+    for (std::uint32_t key = 0; key < std::uint32_t{kKeyCount}; ++key)
+        ASSERT_EQ(CoarseSigns::has_bit(key), CoarseSigns::bit_of(key) >= 0) << key;
+}
+
 TEST(CoarseSigns, HoldWhatWasSet) {
     for (int set = 0; set < CoarseSigns::kCount; ++set) {
         CoarseSigns signs;

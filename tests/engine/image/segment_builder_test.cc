@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/image/segment.h"
+#include "tests/engine/image/plain_segment.h"
 #include "tests/engine/image/random_signatures.h"
 
 namespace haarmony::image {
@@ -107,35 +108,15 @@ TEST_P(BuiltFromRecords, KeepsEveryPictureOnce) {
     }
 }
 
-TEST_P(BuiltFromRecords, GivesBackEveryPostingOnce) {
-    std::vector<Posting> expected;
-    for (const Record& record : records) {
-        for (const Posting& posting : postings_of(record, GetParam().index_m))
-            expected.push_back(posting);
-    }
-    // One slot in three is left out of a second pass.
-    for (const bool all : {true, false}) {
-        std::vector<std::int32_t> place_of(
-            std::size_t(view().counts.blocks()) * kBlockSlots, -1);
-        std::set<std::int64_t> left_out;
-        for (std::size_t slot = 0; slot < view().counts.slots; ++slot) {
-            if (all || slot % 3 != 0)
-                place_of[slot] = std::int32_t(slot);
-            else
-                left_out.insert(view().ids[slot]);
-        }
-        std::erase_if(expected, [&](const Posting& posting) {
-            return left_out.contains(std::get<1>(posting));
-        });
-        std::vector<Posting> given;
-        for_each_posting(view(), place_of, [&](std::span<const PlacedPosting> some) {
-            for (const PlacedPosting& posting : some)
-                given.emplace_back(posting.key, view().ids[posting.place], posting.rank);
-        });
-        std::ranges::sort(expected);
-        std::ranges::sort(given);
-        EXPECT_TRUE(given == expected) << given.size() << " of " << expected.size();
-    }
+TEST_P(BuiltFromRecords, IsByteForByteThePlainOne) {
+    const BuiltSegment expected = plain_segment(records, GetParam().index_m);
+    ASSERT_EQ(view().counts, expected.counts);
+    const std::span bytes(reinterpret_cast<const std::byte*>(view().terms.data()),
+                          segment->bytes().total);
+    const auto [different, in_expected] =
+        std::ranges::mismatch(bytes, expected.bytes.span());
+    EXPECT_TRUE(different == bytes.end())
+        << "byte " << different - bytes.begin() << " of " << bytes.size();
 }
 
 TEST_P(BuiltFromRecords, HasARowForEachTierOfADenseList) {
@@ -287,32 +268,43 @@ INSTANTIATE_TEST_SUITE_P(SegmentBuilder,
                                     std::to_string(tested.param.pictures);
                          });
 
-TEST(SegmentBuilder, PostingsMayComeInAnyOrder) {
+// Counts pictures from the last to the first.
+class LastFirst final : public PictureSource {
+  public:
+    LastFirst(std::span<const Record* const> records, int index_m)
+        : records_(records, index_m), count_(std::uint32_t(records.size())) {}
+
+    void give_all(const PictureSink& sink) const override {
+        std::vector<std::uint32_t> places;
+        for (std::uint32_t place = count_; place-- > 0;) places.push_back(place);
+        give(places, sink);
+    }
+    void give(std::span<const std::uint32_t> places,
+              const PictureSink& sink) const override {
+        records_.give(places, sink);
+    }
+
+  private:
+    RecordPictures records_;
+    std::uint32_t count_;
+};
+
+TEST(SegmentBuilder, PicturesMayBeCountedInAnyOrder) {
     const std::vector<Record> records = make_records(600, 300);
     PictureColumns columns;
-    std::vector<PlacedPosting> postings;
-    for (std::uint32_t place = 0; place < records.size(); ++place) {
-        columns.ids.push_back(records[place].id);
+    std::vector<const Record*> pointers;
+    for (const Record& record : records) {
+        pointers.push_back(&record);
+        columns.ids.push_back(record.id);
         PictureTerms terms;
         for (std::size_t c = 0; c < kChannels; ++c)
-            terms.average[c] = records[place].signature.channels[c].average;
+            terms.average[c] = record.signature.channels[c].average;
         columns.terms.push_back(terms);
-        for (const auto& [key, id, rank] : postings_of(records[place], 60))
-            postings.push_back({key, place, static_cast<std::uint8_t>(rank)});
     }
-    const auto build = [&] {
-        return build_segment(60, columns, [&](auto, const PostingSink& sink) {
-            const auto half = std::ptrdiff_t(postings.size() / 2);
-            sink(std::span(postings).first(std::size_t(half)));
-            sink(std::span(postings).subspan(std::size_t(half)));
-        });
-    };
-    const BuiltSegment in_order = build();
-    std::mt19937 random(601);
-    std::ranges::shuffle(postings, random);
-    const BuiltSegment shuffled = build();
-    EXPECT_EQ(in_order.counts, shuffled.counts);
-    EXPECT_TRUE(std::ranges::equal(in_order.bytes.span(), shuffled.bytes.span()));
+    const BuiltSegment rising = build_segment(60, columns, RecordPictures(pointers, 60));
+    const BuiltSegment falling = build_segment(60, columns, LastFirst(pointers, 60));
+    EXPECT_EQ(rising.counts, falling.counts);
+    EXPECT_TRUE(std::ranges::equal(rising.bytes.span(), falling.bytes.span()));
 }
 
 }  // namespace

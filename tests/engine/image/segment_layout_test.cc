@@ -7,11 +7,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/image/profile.h"
+#include "engine/image/segment_pictures.h"
 #include "engine/image/segment_search.h"
 #include "tests/engine/image/segment_bytes.h"
 
@@ -42,15 +45,19 @@ std::uint64_t read_all(const SegmentView& view, const Profile& profile, Signatur
         search.score_all(all);
         sum += all.size();
     }
-    std::vector<std::int32_t> place_of(std::size_t(blocks) * kBlockSlots, -1);
-    for (std::size_t slot = 0; slot < view.counts.slots; ++slot)
-        place_of[slot] = std::int32_t(slot);
-    for_each_posting(view, place_of, [&](std::span<const PlacedPosting> some) {
-        for (const PlacedPosting& posting : some) {
-            EXPECT_LT(posting.place, view.counts.slots);
-            EXPECT_LT(posting.rank, view.counts.index_m);
-            EXPECT_LT(posting.key, std::uint32_t{kKeyCount});
-            ++sum;
+    std::vector<std::int32_t> place_of(view.counts.slots);
+    std::iota(place_of.begin(), place_of.end(), 0);
+    std::vector<SegmentPictures::Part> parts;
+    parts.push_back({view, std::move(place_of)});
+    const SegmentPictures pictures(std::move(parts), view.counts.slots);
+    pictures.give_all([&](std::uint32_t place, const PictureCoefficients& picture) {
+        EXPECT_LT(place, view.counts.slots);
+        for (int c = 0; c < kChannels; ++c) {
+            EXPECT_LE(picture[std::size_t(c)].size(), view.counts.index_m);
+            for (const int index : picture[std::size_t(c)]) {
+                EXPECT_LT(coefficient_key(c, index), std::uint32_t{kKeyCount});
+                ++sum;
+            }
         }
     });
     return sum;
