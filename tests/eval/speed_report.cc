@@ -98,7 +98,6 @@ TextTable times_table(const SpeedReport& report) {
     return table;
 }
 
-// A small collection has no blocks: all of it is in the tail.
 double visited_percent(const SpeedRow& row) {
     return row.effort.blocks == 0
                ? 0.0
@@ -109,7 +108,7 @@ double per_query(std::int64_t sum, const SpeedRow& row) {
     return static_cast<double>(sum) / row.queries;
 }
 
-// How long memory needs for what the scan of a query has to read.
+// How long memory needs for what the scan of a query has to read; 0 for a small collection, all of which is in the tail.
 double bound_ms(const SpeedReport& report, const SpeedRow& row) {
     return per_query(row.scan_bytes, row) / report.bytes_per_second * 1e3;
 }
@@ -127,6 +126,7 @@ TextTable effort_table(const SpeedReport& report) {
                      "of the memory's time"},
                     3);
     for (const SpeedRow& row : report.rows) {
+        const double bound = bound_ms(report, row);
         table.add({row.profile,
                    rule_name(row.bin_rule),
                    synthetic_kind_name(row.kind),
@@ -136,7 +136,7 @@ TextTable effort_table(const SpeedReport& report) {
                    number(per_query(row.effort.compared, row), 0),
                    milliseconds(row.scan.median_ms),
                    number(per_query(row.scan_bytes, row) / double(row.images), 1),
-                   number(row.scan.median_ms / bound_ms(report, row), 2)});
+                   bound == 0.0 ? "" : number(row.scan.median_ms / bound, 2)});
     }
     return table;
 }
