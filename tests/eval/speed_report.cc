@@ -108,7 +108,8 @@ double per_query(std::int64_t sum, const SpeedRow& row) {
     return static_cast<double>(sum) / row.queries;
 }
 
-// How long memory needs for what the scan of a query has to read; 0 for a small collection, all of which is in the tail.
+// How long memory needs for what the scan of a query has to read; 0 for a small collection,
+// all of which is in the tail.
 double bound_ms(const SpeedReport& report, const SpeedRow& row) {
     return per_query(row.scan_bytes, row) / report.bytes_per_second * 1e3;
 }
