@@ -27,11 +27,6 @@ inline constexpr int kMostLevel = 20;
     return segment_count(level) + (ends == Ends::kOpen ? 3 : 0);
 }
 // The level of a curve of so many control points, if there is one up to kMostLevel.
-[[nodiscard]] constexpr std::optional<int> level_of(std::size_t controls, Ends ends) {
-    for (int level = 0; level <= kMostLevel; ++level) {
-        if (control_count(level, ends) == controls) return level;
-    }
-    return std::nullopt;
-}
+[[nodiscard]] std::optional<int> level_of(std::size_t controls, Ends ends);
 
 }  // namespace haarmony::curve
