@@ -367,7 +367,7 @@ Result<std::int64_t> JobStore::requeue_running() {
     Result<void> done = cache_.run(kCancelAsked);
     if (done) done = cache_.run(kPrune, kMaxFinishedJobs);
     if (!done) return failed(std::move(done).error());
-    const Result<std::int64_t> count = requeue(cache_);
+    Result<std::int64_t> count = requeue(cache_);
     if (!count) return failed(count.error());
     done = scope->commit();
     if (!done) return failed(std::move(done).error());

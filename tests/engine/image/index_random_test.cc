@@ -130,11 +130,13 @@ class Trial {
             queries.push_back(query_of(turned));
         }
         std::vector<BestMatch> expected;
+        expected.reserve(best.size());
         for (const auto& [_, match] : best) expected.push_back(match);
         std::ranges::stable_sort(expected, {}, &BestMatch::distance);
         expected.resize(std::min(expected.size(), std::size_t(upright.limit)));
 
         std::vector<Way> ways;
+        ways.reserve(queries.size());
         for (const Query& query : queries) ways.push_back({snapshot.get(), &query});
         const std::optional<IdSet> only = id_set_of(upright);
         const BestResult found =

@@ -130,6 +130,7 @@ TEST(RandomIndexThreads, EverySnapshotAnswersAllQuestionsOfOneState) {
         Progress progress;
         {
             std::vector<std::jthread> threads;
+            threads.reserve(3);
             for (int reader = 0; reader < 2; ++reader)
                 threads.emplace_back([&] { read(index, script, progress); });
             threads.emplace_back([&] { merge(index, progress); });

@@ -69,6 +69,7 @@ Query query_of(const Question& question) {
 std::optional<IdSet> id_set_of(const Question& question) {
     if (!question.only) return std::nullopt;
     std::vector<ImageId> ids;
+    ids.reserve(question.only->size());
     for (const std::int64_t id : *question.only) ids.push_back(ImageId{id});
     return IdSet(ids);
 }
