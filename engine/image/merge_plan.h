@@ -3,7 +3,9 @@
 //
 // Rules   1. a segment of which at least half is removed is rewritten alone;
 //         2. the smallest kMergeFanIn segments or more of one size class (sizes within a
-//            factor of 4), as long as the result has at most kMaxSegmentSlots pictures.
+//            factor of 4), as long as the result has at most kMaxSegmentSlots pictures and
+//            a quarter of all: while it is built, memory holds it and its parts. So many as
+//            kSmallMerge are never too many.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +15,7 @@
 namespace haarmony::image {
 
 inline constexpr std::size_t kMergeFanIn = 4;
+inline constexpr int kSmallMerge = 8192;
 
 struct SegmentSize {
     int slots = 0;

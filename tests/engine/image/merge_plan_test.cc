@@ -32,13 +32,25 @@ TEST(MergePlan, TakesAllOfTheSmallestClassThatIsDue) {
 }
 
 TEST(MergePlan, NeverMakesMoreThanASegmentHolds) {
-    EXPECT_EQ(plan_merge(full({40000, 40000, 40000, 40000})), (Plan{0, 1, 2}));
-    EXPECT_EQ(plan_merge(full({80000, 80000, 80000, 80000})), Plan{});
-    EXPECT_EQ(
-        plan_merge(full(
-            {kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots, kMaxSegmentSlots})),
-        Plan{});
-    EXPECT_EQ(plan_merge(full({32768, 32768, 32768, 32768})), (Plan{0, 1, 2, 3}));
+    const auto with_others = [](std::vector<int> sizes) {
+        sizes.insert(sizes.end(), 3, kMaxSegmentSlots);
+        sizes.insert(sizes.end(), 3, kMaxSegmentSlots - 1);
+        return full(sizes);
+    };
+    EXPECT_EQ(plan_merge(with_others({})), Plan{});
+    EXPECT_EQ(plan_merge(with_others({32768, 32768, 32768, 32768})), (Plan{0, 1, 2, 3}));
+    EXPECT_EQ(plan_merge(with_others({40000, 40000, 40000, 40000})), (Plan{0, 1, 2}));
+}
+
+TEST(MergePlan, NeverMakesMoreThanAQuarterOfAll) {
+    EXPECT_EQ(plan_merge(full({40000, 40000, 40000, 40000})), Plan{});
+    EXPECT_EQ(plan_merge(full({9000, 9000, 9000, 9000, 60000})), (Plan{0, 1}));
+    EXPECT_EQ(plan_merge(full({9000, 9000, 9000, 9000, 108'000})), (Plan{0, 1, 2, 3}));
+}
+
+TEST(MergePlan, MakesOfFewPicturesWhatTheyAre) {
+    EXPECT_EQ(plan_merge(full({2048, 2048, 2048, 2048})), (Plan{0, 1, 2, 3}));
+    EXPECT_EQ(plan_merge(full({2048, 2048, 2048, 2049})), (Plan{0, 1, 2}));
 }
 
 TEST(MergePlan, RewritesASegmentThatLostHalf) {
