@@ -117,7 +117,7 @@ TEST_F(JobsTest, WhatCanNeverSucceedIsRefusedAtOnce) {
         {json::object(), {400, "invalid_argument", "type"}},
         {{{"type", "paint"}}, {400, "invalid_argument", "type"}},
         {{{"type", 1}}, {400, "invalid_argument", "type"}},
-        {{{"type", "snapshot"}}, {400, "not_built", "type"}},
+        {{{"type", "snapshot"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "ingest"}}, {400, "invalid_argument", "paths"}},
         {{{"type", "reindex"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "reindex"}, {"profile", "x"}}, {400, "unknown_profile", "profile"}},
