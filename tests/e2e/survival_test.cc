@@ -80,8 +80,8 @@ TEST(Survival, RestartBeginsWithTheSnapshotThatTheLastDaemonLeft) {
     const auto found = [](Daemon& daemon) {
         auto curl = daemon.client();
         std::vector<Found> matches;
-        for (const json& match :
-             json::parse(curl.get("/query?id=1&limit=20").body)["matches"])
+        const json answer = json::parse(curl.get("/query?id=1&limit=20").body);
+        for (const json& match : answer["matches"])
             matches.emplace_back(match["id"], match["distance"]);
         return matches;
     };

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/schema/scratch_folder.h"
 

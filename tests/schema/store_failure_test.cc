@@ -84,7 +84,8 @@ std::string rows_of(const std::string& path) {
           "id, kind, target FROM feedback",
           "generation, published FROM duplicate_generations",
           "generation, a, b FROM duplicates",
-          "a, b FROM ignored_duplicates"}) {
+          "a, b FROM ignored_duplicates",
+          "number, seq FROM snapshots"}) {
         const auto from = columns.find(" FROM");
         all += sql_text(database.handle(),
                         "SELECT coalesce(group_concat(json_array(" +

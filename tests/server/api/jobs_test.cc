@@ -1,6 +1,7 @@
 // /jobs: queued, listed, followed, cancelled, and what is refused before it is queued.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,22 @@ TEST_F(JobsTest, AFolderThatIsGoneWhenItsTurnComesFailsTheJob) {
         EXPECT_EQ(done(*interface_.jobs, "ingest", request).state,
                   schema::JobState::kFailed)
             << request;
+}
+
+TEST_F(JobsTest, ASnapshotIsWrittenAndToldAbout) {
+    for (unsigned number = 1; number <= 3; ++number) interface_.collection.add(number);
+    const json job = run({{"type", "snapshot"}});
+    EXPECT_EQ(job["state"], "done");
+    const auto bytes =
+        std::filesystem::file_size(snapshot_path_of(interface_.collection.path()));
+    EXPECT_EQ(job["counts"]["seen"], bytes);
+    EXPECT_EQ(job["total"], bytes);
+    EXPECT_EQ(job["result"]["bytes"], bytes);
+    EXPECT_EQ(job["result"]["images"], 3);
+    const json status = json_of(interface_.get("/status"));
+    EXPECT_EQ(job["result"]["sequence"], status["sequence"]);
+    EXPECT_EQ(status["snapshot_sequence"], status["sequence"]);
+    EXPECT_EQ(status["began_with_snapshot"], 0);
 }
 
 TEST_F(JobsTest, WhatCanNeverSucceedIsRefusedAtOnce) {
