@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/e2e/collection.h"
 
@@ -18,6 +20,10 @@ int images(Daemon& daemon) {
     auto curl = daemon.client();
     return json::parse(curl.get("/status").body)["images"];
 }
+
+// For daemons that are asked again and again: nobody reads their log meanwhile, and a pipe holds
+// 64 KB.
+const std::vector<std::string> kQuiet{"--log-level", "warn"};
 
 // Polls until `holds`, for half a minute at most.
 bool eventually(const std::function<bool()>& holds) {
@@ -39,7 +45,7 @@ int first_id(Daemon& daemon, int number) {
 TEST(Survival, RunningDaemonSeesWhatTheWorkerWritesBesideIt) {
     const testing::TemporaryFolder folder;
     const std::string database = folder.file("haarmony.db");
-    Daemon daemon(database, {});
+    Daemon daemon(database, kQuiet);
     EXPECT_EQ(images(daemon), 0);
     write_pictures(folder.file("pictures"), 12);
     ASSERT_EQ(ingest(database, {folder.file("pictures")}).exit_code, 0);
@@ -133,7 +139,7 @@ TEST(Survival, DaemonThatIsKilledWhileItWritesASnapshotStartsAgain) {
         // What is under the final name is whole, or is ignored; so with the other one.
         if (killed_while_writing == 1) write_file(snapshot + ".partial", "half a file");
         if (killed_while_writing == 2) write_file(snapshot, "half a file");
-        Daemon daemon(database, {});
+        Daemon daemon(database, kQuiet);
         ASSERT_TRUE(serves_all(daemon)) << round;
         std::filesystem::remove(snapshot + ".partial");
         auto curl = daemon.client();
@@ -146,7 +152,7 @@ TEST(Survival, DaemonThatIsKilledWhileItWritesASnapshotStartsAgain) {
         daemon.kill_hard();
         killed_while_writing += std::filesystem::exists(snapshot + ".partial") ? 1 : 0;
     }
-    Daemon daemon(database, {});
+    Daemon daemon(database, kQuiet);
     auto curl = daemon.client();
     EXPECT_TRUE(serves_all(daemon));
     ASSERT_EQ(curl.post("/jobs", R"({"type":"snapshot"})", "application/json").status,
@@ -167,7 +173,7 @@ TEST(Survival, KilledIngestResumesBesideAKilledDaemon) {
     constexpr int kPictures = 80;
     write_pictures(pictures, kPictures);
     {
-        Daemon daemon(database, {});
+        Daemon daemon(database, kQuiet);
         testing::Process worker({program("haarmony-ingest"),
                                  "--db",
                                  database,
@@ -181,7 +187,7 @@ TEST(Survival, KilledIngestResumesBesideAKilledDaemon) {
         daemon.kill_hard();
         (void)worker.wait(std::chrono::seconds{30});
     }
-    Daemon daemon(database, {});
+    Daemon daemon(database, kQuiet);
     const int survived = images(daemon);
     EXPECT_GT(survived, 0);
     const auto second = ingest(database, {pictures});
@@ -197,7 +203,7 @@ TEST(Survival, DeletedPictureStaysDeletedUntilItsFileChanges) {
     const std::string pictures = folder.file("pictures");
     write_pictures(pictures, 8);
     ASSERT_EQ(ingest(database, {pictures}).exit_code, 0);
-    Daemon daemon(database, {});
+    Daemon daemon(database, kQuiet);
     auto curl = daemon.client();
     const int id = first_id(daemon, 4);
     const std::string address = "/images/" + std::to_string(id);
