@@ -40,9 +40,9 @@ Result<void> check_averages_bound(const SegmentView& view) {
 }
 
 Result<void> check_slots(const SegmentView& view) {
+    if (std::ranges::max(view.slots_by_id) < view.counts.slots) return {};
     const auto outside = std::ranges::find_if(
         view.slots_by_id, [&](std::uint32_t slot) { return slot >= view.counts.slots; });
-    if (outside == view.slots_by_id.end()) return {};
     return corrupt(
         at("slot by id", std::size_t(outside - view.slots_by_id.begin()), *outside));
 }
@@ -83,7 +83,10 @@ Result<void> check_own(const SegmentView& view) {
 bool are_coefficients(std::span<const std::int16_t> own) {
     std::uint16_t farthest = 0;
     for (const std::int16_t index : own) {
-        const int magnitude = index < 0 ? -index : index;
+        // In 16 bits alone: eight at a time.
+        const auto bits = static_cast<std::uint16_t>(index);
+        const auto sign = static_cast<std::uint16_t>(index >> 15);
+        const auto magnitude = static_cast<std::uint16_t>((bits ^ sign) - sign);
         farthest = std::max(farthest, static_cast<std::uint16_t>(magnitude - 1));
     }
     // That of 0 is the largest of all.
