@@ -17,12 +17,16 @@ constexpr std::string_view kLastSequence = "SELECT coalesce(max(seq), 0) FROM ch
 // Along the table itself: only its rows hold the signatures.
 constexpr std::string_view kScan =
     "SELECT id, width, height, signature FROM images NOT INDEXED"
-    " WHERE signature IS NOT NULL ORDER BY id";
+    " WHERE signature IS NOT NULL AND id BETWEEN ?1 AND ?2 ORDER BY id";
+
+// Along an index that has no more than what is asked for.
+constexpr std::string_view kSearchableIds =
+    "SELECT id FROM images INDEXED BY images_state WHERE state = 'indexed' ORDER BY id";
 
 // In the order of kScan: the two are read side by side, and no picture costs a query.
 constexpr std::string_view kVariantScan =
     "SELECT image_id, variant, signature FROM image_signatures"
-    " ORDER BY image_id, variant";
+    " WHERE image_id BETWEEN ?1 AND ?2 ORDER BY image_id, variant";
 
 // A picture with several variants is several rows, with none one row without a variant.
 constexpr std::string_view kChanges =
@@ -32,6 +36,9 @@ constexpr std::string_view kChanges =
     " AS page LEFT JOIN images ON images.id = page.image_id"
     " LEFT JOIN image_signatures ON image_signatures.image_id = page.image_id"
     " ORDER BY page.seq, variant";
+
+constexpr IdRange kAllIds{ImageId{std::numeric_limits<std::int64_t>::min()},
+                          ImageId{std::numeric_limits<std::int64_t>::max()}};
 
 std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> bytes) {
     return {bytes.begin(), bytes.end()};
@@ -87,19 +94,32 @@ Result<std::int64_t> last_sequence(StatementCache& cache) {
 
 Result<std::int64_t> ImageStore::for_each_searchable(
     const std::function<void(const SearchableImage&)>& visit) {
+    return for_each_searchable(kAllIds, [&](const SearchableImage& image) {
+        visit(image);
+        return true;
+    });
+}
+
+Result<std::int64_t> ImageStore::for_each_searchable(
+    const IdRange& range,
+    const std::function<bool(const SearchableImage&)>& visit) {
     const auto failed = [](Error error) {
         return while_doing("cannot read the signatures", std::move(error));
     };
     Result<ReadScope> scope = ReadScope::begin(statements_->cache);
     if (!scope) return failed(std::move(scope).error());
     // The first read fixes what the whole transaction sees.
-    Result<std::int64_t> sequence = last_sequence(statements_->cache);
+    Result<std::int64_t> sequence = schema::last_sequence(statements_->cache);
     if (!sequence) return failed(std::move(sequence).error());
 
     auto scan = statements_->cache.borrow(kScan);
     if (!scan) return failed(std::move(scan).error());
     auto variant_statement = statements_->cache.borrow(kVariantScan);
     if (!variant_statement) return failed(std::move(variant_statement).error());
+    for (Statement* statement : {&**scan, &**variant_statement}) {
+        statement->bind(1, to_int(range.first));
+        statement->bind(2, to_int(range.last));
+    }
     VariantScan variant_scan(**variant_statement);
     if (Result<void> begun = variant_scan.begin(); !begun) return failed(begun.error());
 
@@ -112,11 +132,38 @@ Result<std::int64_t> ImageStore::for_each_searchable(
         const Result<void> taken = variant_scan.take(id, variants);
         if (!taken) return failed(taken.error());
         // The table bounds both sides by 2^31 - 1.
-        visit({ImageId{id},
-               static_cast<int>((*scan)->integer(1)),
-               static_cast<int>((*scan)->integer(2)),
-               (*scan)->bytes(3),
-               variants});
+        const bool go_on = visit({ImageId{id},
+                                  static_cast<int>((*scan)->integer(1)),
+                                  static_cast<int>((*scan)->integer(2)),
+                                  (*scan)->bytes(3),
+                                  variants});
+        if (!go_on) return sequence;
+    }
+}
+
+Result<std::int64_t> ImageStore::last_sequence() {
+    Result<std::int64_t> sequence = schema::last_sequence(statements_->cache);
+    if (!sequence)
+        return while_doing("cannot read the last change", std::move(sequence).error());
+    return sequence;
+}
+
+Result<std::vector<IdRange>> ImageStore::searchable_ranges(int size) {
+    assert(size >= 1);
+    const auto failed = [](Error error) {
+        return while_doing("cannot read the ids", std::move(error));
+    };
+    auto statement = statements_->cache.borrow(kSearchableIds);
+    if (!statement) return failed(std::move(statement).error());
+    std::vector<IdRange> ranges{kAllIds};
+    for (std::int64_t seen = 0;; ++seen) {
+        const Result<bool> row = (*statement)->step();
+        if (!row) return failed(row.error());
+        if (!*row) return ranges;
+        if (seen == 0 || seen % size != 0) continue;
+        const std::int64_t first = (*statement)->integer(0);
+        ranges.back().last = ImageId{first - 1};
+        ranges.push_back({ImageId{first}, kAllIds.last});
     }
 }
 

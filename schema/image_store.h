@@ -117,6 +117,12 @@ struct SearchableImage {
     std::span<const SignatureVariant> variants;  // in the order of their names
 };
 
+// Both ends belong to it.
+struct IdRange {
+    ImageId first{};
+    ImageId last{};
+};
+
 // More tags in one ListOptions or ImageFilter are refused (kInvalidArgument).
 inline constexpr std::size_t kMaxListTags = 64;
 
@@ -208,6 +214,17 @@ class ImageStore {
     // corresponds to, read in one transaction. `visit` may read, but not write.
     [[nodiscard]] Result<std::int64_t> for_each_searchable(
         const std::function<void(const SearchableImage&)>& visit);
+    // The same of those in the range; ends early, without an error, when `visit` says false.
+    // Several connections that read ranges beside each other see what was committed up to the
+    // smallest of their sequence numbers, and some of them later commits as well.
+    [[nodiscard]] Result<std::int64_t> for_each_searchable(
+        const IdRange& range,
+        const std::function<bool(const SearchableImage&)>& visit);
+    // That of the last change there is.
+    [[nodiscard]] Result<std::int64_t> last_sequence();
+    // Ranges that follow one another and have room for every id, each with `size` (>= 1)
+    // searchable pictures; the last may have fewer, or none.
+    [[nodiscard]] Result<std::vector<IdRange>> searchable_ranges(int size);
     // The changes after `sequence`, oldest first, at most `limit` (>= 1); a row changed
     // several times appears once, at its last change. A picture that a follower never saw
     // may appear as gone. What a search cannot see (stamp, tags, metadata) is no change.

@@ -133,8 +133,11 @@ int run_daemon(const Config& config) {
     ingest.threads = config.threads;
     JobRunnerOptions running;
     running.database_path = config.database;
-    auto jobs = JobRunner::start(
-        running, job_types(images.value()->index(), ingest, service.decode));
+    auto jobs = JobRunner::start(running,
+                                 job_types(images.value()->index(),
+                                           images.value()->snapshots(),
+                                           ingest,
+                                           service.decode));
     if (!jobs) return leave(kExitCouldNotRun, jobs.error());
     auto duplicates = DuplicateGroups::open(config.database);
     if (!duplicates) return leave(kExitCouldNotRun, duplicates.error());

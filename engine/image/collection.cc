@@ -52,6 +52,19 @@ IndexStats stats(const Collection& collection) {
     return stats;
 }
 
+std::vector<LiveSegment> sealed(const Collection& collection) {
+    std::vector<LiveSegment> segments = collection.segments;
+    const LiveTail& tail = collection.tail;
+    std::vector<const Record*> newest;
+    for (int slot = 0; slot < tail.count; ++slot) {
+        if (!is_removed(tail.removed, slot)) newest.push_back(&(*tail.records)[slot]);
+    }
+    std::ranges::sort(newest, {}, &Record::id);
+    if (!newest.empty())
+        segments.push_back({Segment::from_records(newest, collection.index_m), nullptr});
+    return segments;
+}
+
 void remove(Collection& collection, std::span<const ImageId> ids) {
     std::vector<TombstonesInWork> tombstones;
     tombstones.reserve(collection.segments.size());

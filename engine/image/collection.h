@@ -29,6 +29,9 @@ struct Collection {
 
 [[nodiscard]] IndexStats stats(const Collection& collection);
 
+// All of it as segments: what is live in the tail becomes one of its own, the last.
+[[nodiscard]] std::vector<LiveSegment> sealed(const Collection& collection);
+
 // Sets the tombstones of those pictures that are live; the tombstones of every segment that
 // is touched are copied once, however many pictures it loses.
 void remove(Collection& collection, std::span<const ImageId> ids);

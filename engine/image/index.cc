@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <mutex>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -27,6 +28,9 @@ class PublishedCollection final : public IndexSnapshot {
         return image::score_all(collection_, query, only);
     }
     [[nodiscard]] IndexStats stats() const override { return image::stats(collection_); }
+    [[nodiscard]] std::vector<LiveSegment> sealed() const override {
+        return image::sealed(collection_);
+    }
     [[nodiscard]] const Collection& collection() const { return collection_; }
 
   private:
@@ -60,13 +64,11 @@ class Index::State {
     explicit State(const IndexOptions& options) : options_(options) {
         assert(options.index_m >= 1 && options.index_m <= kMaxCoefficients);
         assert(options.tail_capacity >= 1 && options.tail_capacity <= kMaxSegmentSlots);
-        Collection empty;
-        empty.index_m = options.index_m;
-        start_tail(empty);
-        publish(std::move(empty));
+        publish(with_empty_tail({}));
     }
 
     void apply(std::span<const Record> upserts, std::span<const ImageId> removals);
+    void reset(std::vector<LiveSegment> segments, SegmentOrigin origin);
     bool merge_once();
 
     [[nodiscard]] std::shared_ptr<const PublishedCollection> published() const {
@@ -82,6 +84,16 @@ class Index::State {
         published_.swap(next);
     }
 
+    Collection with_empty_tail(std::vector<LiveSegment> segments) {
+        Collection collection;
+        collection.index_m = options_.index_m;
+        collection.segments = std::move(segments);
+        start_tail(collection);
+        return collection;
+    }
+
+    [[nodiscard]] std::vector<LiveSegment> due_parts() const;
+    bool prove(std::span<const LiveSegment> parts);
     void start_tail(Collection& collection);
     void remove_from_tail(Collection& collection, std::span<const ImageId> ids);
     void append_to_tail(Collection& collection, std::span<const Record* const> records);
@@ -89,7 +101,11 @@ class Index::State {
 
     const IndexOptions options_;
 
-    std::mutex merge_mutex_;  // one merge at a time; taken before write_mutex_
+    // One merge at a time; taken before write_mutex_, and guards the next two.
+    std::mutex merge_mutex_;
+    // Those from a file that were not checked completely yet, or found damaged.
+    std::set<std::shared_ptr<const Segment>> unproven_;
+    std::set<std::shared_ptr<const Segment>> damaged_;
     std::mutex write_mutex_;  // one writer at a time; guards the next two
     std::shared_ptr<Tail> tail_;
     std::unordered_map<std::int64_t, int> slot_in_tail_;  // of the live ones
@@ -166,19 +182,46 @@ void Index::State::apply(std::span<const Record> upserts,
     publish(std::move(next));
 }
 
+void Index::State::reset(std::vector<LiveSegment> segments, SegmentOrigin origin) {
+    const std::lock_guard merging(merge_mutex_);
+    damaged_.clear();
+    unproven_.clear();
+    if (origin == SegmentOrigin::kFile) {
+        for (const LiveSegment& part : segments) unproven_.insert(part.segment);
+    }
+    const std::lock_guard lock(write_mutex_);
+    publish(with_empty_tail(std::move(segments)));
+}
+
+std::vector<LiveSegment> Index::State::due_parts() const {
+    std::vector<LiveSegment> sound;
+    std::vector<SegmentSize> sizes;
+    for (const LiveSegment& part : published()->collection().segments) {
+        if (damaged_.contains(part.segment)) continue;
+        sound.push_back(part);
+        sizes.push_back({part.segment->size(), part.live()});
+    }
+    std::vector<LiveSegment> parts;
+    for (const std::size_t i : plan_merge(sizes)) parts.push_back(sound[i]);
+    return parts;
+}
+
+// Whether all of them may be merged.
+bool Index::State::prove(std::span<const LiveSegment> parts) {
+    for (const LiveSegment& part : parts) {
+        if (unproven_.erase(part.segment) == 0) continue;
+        const SegmentView& view = part.segment->view();
+        if (!view_segment(view.counts, bytes_of(view))) damaged_.insert(part.segment);
+    }
+    return std::ranges::none_of(
+        parts, [&](const LiveSegment& part) { return damaged_.contains(part.segment); });
+}
+
 bool Index::State::merge_once() {
     const std::lock_guard merging(merge_mutex_);
-    std::vector<LiveSegment> parts;
-    {
-        const auto before = published();
-        std::vector<SegmentSize> sizes;
-        for (const LiveSegment& part : before->collection().segments) {
-            sizes.push_back({part.segment->size(), part.live()});
-        }
-        for (const std::size_t i : plan_merge(sizes)) {
-            parts.push_back(before->collection().segments[i]);
-        }
-    }
+    std::vector<LiveSegment> parts = due_parts();
+    // Each turn finds out about a damaged one, so there is an end.
+    while (!prove(parts)) parts = due_parts();
     if (parts.empty()) return false;
     const std::shared_ptr<const Segment> merged = Segment::merge(parts);
 
@@ -194,6 +237,10 @@ Index::~Index() = default;
 
 void Index::apply(std::span<const Record> upserts, std::span<const ImageId> removals) {
     state_->apply(upserts, removals);
+}
+
+void Index::reset(std::vector<LiveSegment> segments, SegmentOrigin origin) {
+    state_->reset(std::move(segments), origin);
 }
 
 bool Index::merge_once() { return state_->merge_once(); }

@@ -48,7 +48,14 @@ struct SearchScope {
     bool exhaustive = false;
 };
 
+struct LiveSegment;  // segment.h
 class IndexSnapshot;
+
+// Where the bytes of segments come from.
+enum class SegmentOrigin {
+    kBuilt,  // by this program, in this process
+    kFile,   // view_known_segment() let them pass
+};
 
 class Index {
   public:
@@ -62,8 +69,13 @@ class Index {
     // visible at once.
     void apply(std::span<const Record> upserts, std::span<const ImageId> removals);
 
+    // Holds what the segments hold from now on, and nothing else.
+    // Requires: this index_m, no id live in two segments; no apply() at the same time.
+    void reset(std::vector<LiveSegment> segments, SegmentOrigin origin);
+
     // Merges the segments that are due and publishes the result; returns whether there was
-    // anything to merge. Long: meant for a background thread.
+    // anything to merge. Long: meant for a background thread. What came from a file is checked
+    // completely before its first merge, and stays as it is where it is damaged.
     bool merge_once();
 
     [[nodiscard]] std::shared_ptr<const IndexSnapshot> snapshot() const;
@@ -86,6 +98,9 @@ class IndexSnapshot {
     [[nodiscard]] virtual std::vector<Match> score_all(const Query& query,
                                                        const IdSet* only) const = 0;
     [[nodiscard]] virtual IndexStats stats() const = 0;
+    // All that is live, as segments: as they are, and the tail in one of its own.
+    // Cost: that segment's.
+    [[nodiscard]] virtual std::vector<LiveSegment> sealed() const = 0;
 };
 
 }  // namespace haarmony::image

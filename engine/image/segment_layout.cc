@@ -104,4 +104,10 @@ SegmentView spans_of(const SegmentCounts& counts, std::span<const std::byte> byt
     return spans;
 }
 
+std::span<const std::byte> bytes_of(const SegmentView& view) {
+    // The first section begins where the segment does.
+    return {reinterpret_cast<const std::byte*>(view.terms.data()),
+            segment_bytes(view.counts).total};
+}
+
 }  // namespace haarmony::image

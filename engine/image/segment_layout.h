@@ -10,7 +10,7 @@
 //         as there are m. Three of them can be read off at once: m = 20, 40 and index_m. For
 //         another m the next tier is a superset, and the ranks, which come last in the
 //         bytes and are read for nothing else, say what belongs.
-// Errors  see view_segment().
+// Errors  see view_segment() and view_known_segment().
 // Threads const-thread-safe.
 // Source  sec. 4.3.1 (search arrays); FORMATS.md, byte by byte.
 #pragma once
@@ -28,6 +28,9 @@
 
 namespace haarmony::image {
 
+// Raised with every change after which the same bytes would mean something else: whoever keeps
+// segments in files keeps it beside them.
+inline constexpr std::uint32_t kSegmentLayoutVersion = 1;
 inline constexpr int kMaxSegmentSlots = 1 << 17;
 inline constexpr int kMaxTiers = 3;
 // Neighbouring slots that share a bit of a coarse row, and blocks that share a word of it.
@@ -179,10 +182,20 @@ struct SegmentBytes {
 [[nodiscard]] SegmentView spans_of(const SegmentCounts& counts,
                                    std::span<const std::byte> bytes);
 
+// All bytes of the segment that the view is of.
+[[nodiscard]] std::span<const std::byte> bytes_of(const SegmentView& view);
+
 // The segment in bytes that came from elsewhere. kUndecodable naming the first thing found that
-// no builder writes; nothing that passes makes a search read outside of the bytes.
-// Requires: aligned to 64.
+// no builder writes; nothing that passes makes a search or a merge read outside of the bytes.
+// Requires: aligned to 64. Cost: every posting is looked at.
 [[nodiscard]] Result<SegmentView> view_segment(const SegmentCounts& counts,
                                                std::span<const std::byte> bytes);
+
+// The same of bytes that view_segment() accepted when they were written, and that a checksum
+// says are still these: all that is checked is that no search reads outside of the bytes.
+// Whoever merges the segment calls view_segment() first.
+// Requires: aligned to 64. Cost: a pass over the pictures' own coefficients.
+[[nodiscard]] Result<SegmentView> view_known_segment(const SegmentCounts& counts,
+                                                     std::span<const std::byte> bytes);
 
 }  // namespace haarmony::image

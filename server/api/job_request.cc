@@ -81,9 +81,6 @@ JobRequest read_job_request(const Context& context, Inputs& inputs) {
     if (*type == "ingest") request = read_ingest(context, inputs);
     if (*type == "reindex") request = read_reindex(context, inputs);
     if (*type == "find_duplicates") request = read_find_duplicates(inputs);
-    if (*type == "snapshot")
-        inputs.refuse(http::Problem{
-            400, "not_built", "a job of type 'snapshot' is not built yet", "type", {}});
     return {*type,
             request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }

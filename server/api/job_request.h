@@ -2,7 +2,7 @@
 // refused at once.
 //
 // Errors  left in the inputs: 400 naming the parameter, 403 for a path that is not below a
-//         media root, "not_built" for a type that is described but not built.
+//         media root.
 #pragma once
 
 #include <string>

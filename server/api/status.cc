@@ -56,6 +56,8 @@ Reply get_status(const Context& context, const http::Request& request) {
                   {"bytes_per_image", bytes_per_image},
                   {"index_m", status->index_m},
                   {"sequence", status->sequence},
+                  {"snapshot_sequence", status->snapshot_sequence.value_or(0)},
+                  {"began_with_snapshot", status->began_with_snapshot ? 1 : 0},
                   {"ready", status->ready ? 1 : 0}});
 }
 

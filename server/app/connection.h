@@ -15,6 +15,7 @@
 #include "schema/image_store.h"
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
+#include "schema/snapshot_store.h"
 #include "server/app/lending_pool.h"
 
 namespace haarmony::server {
@@ -35,6 +36,7 @@ class Connection {
     [[nodiscard]] schema::FeedbackStore& feedback() { return feedback_; }
     [[nodiscard]] schema::JobStore& jobs() { return jobs_; }
     [[nodiscard]] schema::DuplicateStore& duplicates() { return duplicates_; }
+    [[nodiscard]] schema::SnapshotStore& snapshots() { return snapshots_; }
 
   private:
     explicit Connection(schema::Database database)
@@ -43,7 +45,8 @@ class Connection {
           profiles_(database_),
           feedback_(database_),
           jobs_(database_),
-          duplicates_(database_) {}
+          duplicates_(database_),
+          snapshots_(database_) {}
 
     schema::Database database_;
     schema::ImageStore images_;
@@ -51,6 +54,7 @@ class Connection {
     schema::FeedbackStore feedback_;
     schema::JobStore jobs_;
     schema::DuplicateStore duplicates_;
+    schema::SnapshotStore snapshots_;
 };
 
 using ReadConnections = LendingPool<Connection>;

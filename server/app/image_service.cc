@@ -29,6 +29,13 @@ Error built_in(std::string_view name) {
             "name"};
 }
 
+SnapshotKeeperOptions keeping(const ImageServiceOptions& options) {
+    SnapshotKeeperOptions keeping;
+    keeping.database_path = options.database_path;
+    keeping.threads = options.search_cores;
+    return keeping;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ImageService>> ImageService::open(
@@ -41,6 +48,8 @@ Result<std::unique_ptr<ImageService>> ImageService::open(
     follow.database_path = options.database_path;
     follow.index.index_m = options.index_m;
     follow.poll_interval = options.poll_interval;
+    follow.snapshot_path = snapshot_path_of(options.database_path);
+    follow.threads = options.search_cores;
     auto follower = IndexFollower::start(follow);
     if (!follower) return std::move(follower).error();
     return std::unique_ptr<ImageService>(new ImageService(
@@ -55,6 +64,7 @@ ImageService::ImageService(const ImageServiceOptions& options,
           return Connection::open(path, schema::Database::Mode::kReadOnly);
       }),
       follower_(std::move(follower)),
+      snapshots_(keeping(options), *follower_),
       pictures_(options.decode),
       cores_(options.search_cores) {}
 
@@ -107,6 +117,8 @@ Result<ServiceStatus> ImageService::status() {
     status.damaged = follower_->damaged();
     status.index_m = follower_->index_m();
     status.ready = follower_->ready();
+    status.snapshot_sequence = snapshots_.sequence();
+    status.began_with_snapshot = follower_->began_with().has_value();
     return status;
 }
 
@@ -296,6 +308,9 @@ Result<schema::Thumbnail> ImageService::thumbnail(ImageId id) {
     return read([&](schema::ImageStore& images) { return images.thumbnail(id); });
 }
 
-void ImageService::stop() { follower_->stop(); }
+void ImageService::stop() {
+    follower_->stop();
+    snapshots_.save_and_stop();
+}
 
 }  // namespace haarmony::server

@@ -31,6 +31,7 @@
 #include "server/app/index_follower.h"
 #include "server/app/picture_reader.h"
 #include "server/app/profile_training.h"
+#include "server/app/snapshot_keeper.h"
 
 namespace haarmony::server {
 
@@ -39,7 +40,8 @@ struct ImageServiceOptions {
     int index_m = 60;
     std::chrono::milliseconds poll_interval{25};
     ingest::DecodeLimits decode;
-    int search_cores = 1;  // that searches may use, their own threads included
+    // That searches may use, their own threads included; loading the index has all of them.
+    int search_cores = 1;
 };
 
 struct SearchOptions {
@@ -68,6 +70,9 @@ struct ServiceStatus {
     std::int64_t damaged = 0;
     int index_m = 0;
     bool ready = false;
+    // The last change in the snapshot file, and whether the index was taken from it.
+    std::optional<std::int64_t> snapshot_sequence;
+    bool began_with_snapshot = false;
 };
 
 struct PutProfile {
@@ -92,6 +97,7 @@ class ImageService {
     [[nodiscard]] PictureReader& pictures() { return pictures_; }
     // The indexes themselves, for those who search them in their own way.
     [[nodiscard]] const IndexFollower& index() const { return *follower_; }
+    [[nodiscard]] SnapshotKeeper& snapshots() { return snapshots_; }
 
     [[nodiscard]] Result<SearchAnswer> search(const QueryPicture& picture,
                                               const SearchOptions& options);
@@ -140,7 +146,8 @@ class ImageService {
                                                      std::string_view variant);
     [[nodiscard]] Result<schema::Thumbnail> thumbnail(ImageId id);
 
-    // Ends the background threads; the index answers as it is.
+    // Ends the background threads and writes a snapshot of what has changed; the index
+    // answers as it is.
     void stop();
 
   private:
@@ -165,6 +172,7 @@ class ImageService {
     std::unique_ptr<Connection> writer_;
     ReadConnections readers_;
     std::unique_ptr<IndexFollower> follower_;
+    SnapshotKeeper snapshots_;
     PictureReader pictures_;
     IdleCores cores_;
 };

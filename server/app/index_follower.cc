@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "engine/image/aspect.h"
-#include "engine/image/signature_codec.h"
 #include "ingest/variant.h"
 #include "server/app/log_value.h"
+#include "server/app/rebuild.h"
+#include "server/app/snapshot_reader.h"
+#include "server/app/stored_signatures.h"
+#include "server/app/thread_executor.h"
 
 namespace haarmony::server {
 namespace {
@@ -18,6 +20,14 @@ namespace {
 // are held at a time.
 constexpr int kBatch = 4096;
 constexpr std::chrono::milliseconds kRetryInterval{500};
+// Changes after a snapshot, beside a quarter of its pictures: applying one costs some ten times
+// what reading a picture with all others does.
+constexpr std::int64_t kMostBehind = 20'000;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count();
+}
 
 }  // namespace
 
@@ -52,6 +62,7 @@ void IndexFollower::stop() {
         const std::lock_guard lock(wake_mutex_);
         stopping_ = true;
     }
+    stop_loading_ = true;
     wake_.notify_all();
     if (follower_.joinable()) follower_.join();
     if (merger_.joinable()) merger_.join();
@@ -68,6 +79,7 @@ void IndexFollower::follow() {
     for (;;) {
         Result<void> step = loaded_ ? Result<void>() : load();
         if (step) step = poll();
+        if (stop_loading_) return;
         if (!step && !failing)
             spdlog::error("event=follow_failed reason={}",
                           log_value(step.error().message));
@@ -79,38 +91,122 @@ void IndexFollower::follow() {
 }
 
 Result<void> IndexFollower::load() {
-    const auto started = std::chrono::steady_clock::now();
-    std::vector<SearchablePicture> batch;
-    batch.reserve(kBatch);
-    std::vector<ImageId> loaded;
-    const auto flush = [&] {
-        indexes_.apply(batch, {});
-        for (const SearchablePicture& picture : batch) loaded.push_back(picture.id);
-        batch.clear();
-        wake_merger();
-    };
-    const Result<std::int64_t> sequence = connection_->images().for_each_searchable(
-        [&](const schema::SearchableImage& image) {
-            batch.push_back(read(image));
-            if (batch.size() == kBatch) flush();
-        });
-    flush();
-    if (!sequence) {
-        // What is deleted before the next attempt would otherwise stay for ever.
-        indexes_.apply({}, loaded);
-        return sequence.error();
+    ThreadExecutor executor(std::max(0, options_.threads - 1));
+    if (!options_.snapshot_path.empty() && !snapshot_refused_) {
+        const Result<bool> taken = load_snapshot(executor);
+        if (!taken) return taken.error();
+        if (*taken) return {};
+        snapshot_refused_ = true;
     }
-    const std::chrono::duration<double> elapsed =
-        std::chrono::steady_clock::now() - started;
-    spdlog::info("event=loaded images={} damaged={} sequence={} seconds={:.3f}",
-                 loaded.size(),
+    return load_database(executor);
+}
+
+Result<bool> IndexFollower::load_snapshot(Executor& executor) {
+    const auto started = std::chrono::steady_clock::now();
+    // What the database says when it is asked is no fault of the file's.
+    std::optional<Error> failed;
+    auto contents = read_snapshot(
+        options_.snapshot_path,
+        indexes_.index_m(),
+        [&](const SnapshotTable& table) {
+            Result<void> own = check_origin(table);
+            if (!own && own.error().code != ErrorCode::kConflict) failed = own.error();
+            return own;
+        },
+        executor);
+    if (failed) return *std::move(failed);
+    if (!contents && contents.error().code == ErrorCode::kNotFound) {
+        spdlog::info("event=no_snapshot path={}", log_value(options_.snapshot_path));
+        return false;
+    }
+    if (!contents) {
+        spdlog::warn("event=snapshot_ignored path={} reason={}",
+                     log_value(options_.snapshot_path),
+                     log_value(contents.error().message));
+        return false;
+    }
+    indexes_.reset(std::move(contents->segments), image::SegmentOrigin::kFile);
+    damaged_ = {contents->damaged.begin(), contents->damaged.end()};
+    damaged_count_ = static_cast<std::int64_t>(damaged_.size());
+    spdlog::info("event=snapshot_loaded images={} damaged={} sequence={} seconds={:.3f}",
+                 snapshot()->stats().images,
                  damaged(),
-                 sequence.value(),
-                 elapsed.count());
-    const std::lock_guard lock(apply_mutex_);
-    sequence_ = sequence.value();
-    loaded_ = true;
+                 contents->sequence,
+                 seconds_since(started));
+    began_with_ = contents->sequence;
+    loaded(contents->sequence);
+    return true;
+}
+
+// kConflict where the file is not of this database, or not of its last days.
+Result<void> IndexFollower::check_origin(const SnapshotTable& table) {
+    const auto known = connection_->snapshots().find(table.token);
+    if (!known) return known.error();
+    if (!*known || **known != table.sequence)
+        return Error{
+            ErrorCode::kConflict,
+            "the database does not know the snapshot: another database's, or made "
+            "after the copy that was put back"};
+    const Result<std::int64_t> last = connection_->images().last_sequence();
+    if (!last) return last.error();
+    if (*last < table.sequence)
+        return Error{ErrorCode::kConflict,
+                     "the snapshot is ahead: it holds change " +
+                         std::to_string(table.sequence) + ", the database's last is " +
+                         std::to_string(*last)};
+    std::int64_t pictures = 0;
+    for (const SnapshotPart& part : table.parts) pictures += part.counts.slots;
+    const std::int64_t behind = *last - table.sequence;
+    if (behind > kMostBehind + pictures / 4)
+        return Error{ErrorCode::kConflict,
+                     "the snapshot is " + std::to_string(behind) +
+                         " changes old: the database is read sooner"};
     return {};
+}
+
+Result<void> IndexFollower::load_database(Executor& executor) {
+    const auto started = std::chrono::steady_clock::now();
+    RebuildOptions rebuilding;
+    rebuilding.index_m = indexes_.index_m();
+    rebuilding.threads = std::max(1, options_.threads);
+    rebuilding.go_on = [this] { return !stop_loading_; };
+    ReadConnections connections([this] {
+        return Connection::open(options_.database_path,
+                                schema::Database::Mode::kReadOnly);
+    });
+    Result<Rebuilt> rebuilt = rebuild(connections, rebuilding, executor);
+    if (!rebuilt) return std::move(rebuilt).error();
+    for (const DamagedSignature& damaged : rebuilt->damaged)
+        note_damage(damaged.id, damaged.reason);
+    const std::int64_t images = rebuilt->images;
+    indexes_.reset(std::move(rebuilt->segments), image::SegmentOrigin::kBuilt);
+    spdlog::info("event=loaded images={} damaged={} sequence={} seconds={:.3f}",
+                 images,
+                 damaged(),
+                 rebuilt->sequence,
+                 seconds_since(started));
+    loaded(rebuilt->sequence);
+    return {};
+}
+
+void IndexFollower::loaded(std::int64_t sequence) {
+    wake_merger();
+    const std::lock_guard lock(apply_mutex_);
+    loaded_sequence_ = sequence;
+    sequence_ = sequence;
+    loaded_ = true;
+}
+
+std::optional<FollowedState> IndexFollower::state() {
+    const std::lock_guard lock(apply_mutex_);
+    if (!loaded_) return std::nullopt;
+    return FollowedState{
+        sequence_, indexes_.snapshots(), {damaged_.begin(), damaged_.end()}};
+}
+
+std::optional<std::int64_t> IndexFollower::began_with() const {
+    const std::int64_t sequence = began_with_;
+    return sequence == kNoSnapshot ? std::nullopt : std::optional(sequence);
 }
 
 Result<void> IndexFollower::poll() {
@@ -155,19 +251,13 @@ Result<void> IndexFollower::apply_changes() {
 SearchablePicture IndexFollower::read(const schema::SearchableImage& image) {
     SearchablePicture picture;
     picture.id = image.id;
-    // No picture has a side of 0, but a row that others wrote may.
-    picture.log_aspect =
-        image::log_aspect(std::max(1, image.width), std::max(1, image.height));
-    const auto add = [&](const std::string& variant,
-                         std::span<const std::uint8_t> bytes) {
-        Result<image::Signature> signature = image::decode_signature(bytes);
-        if (!signature)
-            return note_damage(image.id, variant + ": " + signature.error().message);
-        picture.signatures.emplace(variant, std::move(signature).value());
-    };
-    add(ingest::kMainVariant, image.signature);
-    for (const schema::SignatureVariant& variant : image.variants)
-        add(variant.variant, variant.signature);
+    picture.log_aspect = log_aspect_of(image);
+    decode_signatures(
+        image,
+        [&](const std::string& variant, image::Signature&& signature) {
+            picture.signatures.emplace(variant, std::move(signature));
+        },
+        [&](const std::string& reason) { note_damage(image.id, reason); });
     return picture;
 }
 

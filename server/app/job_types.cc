@@ -2,15 +2,18 @@
 
 #include "server/app/find_duplicates_job.h"
 #include "server/app/reindex_job.h"
+#include "server/app/snapshot_job.h"
 
 namespace haarmony::server {
 
 JobTypes job_types(const IndexFollower& follower,
+                   SnapshotKeeper& snapshots,
                    const IngestJobOptions& ingest,
                    const ingest::DecodeLimits& decode) {
     return {{"find_duplicates", find_duplicates_job(follower)},
             {"ingest", ingest_job(ingest)},
-            {"reindex", reindex_job(decode)}};
+            {"reindex", reindex_job(decode)},
+            {"snapshot", snapshot_job(follower, snapshots)}};
 }
 
 }  // namespace haarmony::server

@@ -5,11 +5,13 @@
 #include "server/app/index_follower.h"
 #include "server/app/ingest_job.h"
 #include "server/app/job_runner.h"
+#include "server/app/snapshot_keeper.h"
 
 namespace haarmony::server {
 
-// Requires: the follower outlives the jobs.
+// Requires: the first two outlive the jobs.
 [[nodiscard]] JobTypes job_types(const IndexFollower& follower,
+                                 SnapshotKeeper& snapshots,
                                  const IngestJobOptions& ingest,
                                  const ingest::DecodeLimits& decode);
 

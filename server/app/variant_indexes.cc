@@ -43,6 +43,18 @@ void VariantIndexes::apply(std::span<const SearchablePicture> pictures,
     }
 }
 
+void VariantIndexes::reset(SegmentsByVariant segments, image::SegmentOrigin origin) {
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [variant, _] : segments) {
+            std::unique_ptr<image::Index>& index = indexes_[variant];
+            if (index == nullptr) index = std::make_unique<image::Index>(options_);
+        }
+    }
+    for (const auto& [variant, index] : indexes())
+        index->reset(std::move(segments[variant]), origin);
+}
+
 bool VariantIndexes::merge_once() {
     bool merged = false;
     for (const auto& [variant, index] : indexes()) merged |= index->merge_once();
@@ -53,6 +65,13 @@ Snapshots VariantIndexes::snapshots() const {
     Snapshots snapshots;
     for (const auto& [variant, index] : indexes()) snapshots[variant] = index->snapshot();
     return snapshots;
+}
+
+SegmentsByVariant sealed(const Snapshots& snapshots) {
+    SegmentsByVariant segments;
+    for (const auto& [variant, snapshot] : snapshots)
+        segments[variant] = snapshot->sealed();
+    return segments;
 }
 
 image::IndexStats total_stats(const Snapshots& snapshots) {

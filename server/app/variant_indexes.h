@@ -16,6 +16,7 @@
 
 #include "engine/core/ids.h"
 #include "engine/image/index.h"
+#include "engine/image/segment.h"
 #include "engine/image/signature.h"
 
 namespace haarmony::server {
@@ -30,6 +31,9 @@ struct SearchablePicture {
 using Snapshots =
     std::map<std::string, std::shared_ptr<const image::IndexSnapshot>, std::less<>>;
 
+using SegmentsByVariant =
+    std::map<std::string, std::vector<image::LiveSegment>, std::less<>>;
+
 class VariantIndexes {
   public:
     // The index of kMainVariant is there from the start.
@@ -39,6 +43,9 @@ class VariantIndexes {
     // `removals` out of all.
     void apply(std::span<const SearchablePicture> pictures,
                std::span<const ImageId> removals);
+
+    // Holds what the segments hold, and nothing else. No apply() at the same time.
+    void reset(SegmentsByVariant segments, image::SegmentOrigin origin);
 
     // As Index::merge_once(), of all indexes.
     bool merge_once();
@@ -53,6 +60,9 @@ class VariantIndexes {
     mutable std::mutex mutex_;  // guards the map, not the indexes
     std::map<std::string, std::unique_ptr<image::Index>> indexes_;
 };
+
+// All pictures of all of them, as segments. Cost: a segment for each tail.
+[[nodiscard]] SegmentsByVariant sealed(const Snapshots& snapshots);
 
 // All of them together.
 [[nodiscard]] image::IndexStats total_stats(const Snapshots& snapshots);

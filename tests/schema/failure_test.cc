@@ -258,6 +258,7 @@ TEST(Failure, ABrokenPageIsAnErrorOfEveryFunctionThatMeetsIt) {
             expect_broken(store.mark_failed(file_picture(1).uri, {}, "cut").error());
         } else if (object == "images_state") {
             expect_broken(store.counts().error());
+            expect_broken(store.searchable_ranges(10).error());
         } else if (object == "thumbnails") {
             expect_broken(store.thumbnail(ImageId{1}).error());
         } else if (object == "image_tags") {
@@ -265,6 +266,7 @@ TEST(Failure, ABrokenPageIsAnErrorOfEveryFunctionThatMeetsIt) {
         } else {
             expect_broken(store.changes_after(0, 10).error());
             expect_broken(store.for_each_searchable(nothing).error());
+            expect_broken(store.last_sequence().error());
         }
         expect_broken(store.add(file_picture(1000)).error());
     }

@@ -9,12 +9,18 @@
 #include "schema/image_store.h"
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
+#include "schema/snapshot_store.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/schema/scratch_folder.h"
 
 namespace haarmony::schema {
 namespace {
+
+// Of a snapshot, in hexadecimal digits and as the store has it.
+const std::string kToken = "0102030405060708090a0b0c0d0e0f10";
+constexpr SnapshotToken
+    kTokenBytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
 
 // What the tables of `version` and of those before hold beside the pictures.
 void add_newer_rows(sqlite3* database, int version) {
@@ -29,7 +35,8 @@ void add_newer_rows(sqlite3* database, int version) {
         {7, "INSERT INTO feedback VALUES (9, 'painted', 1, NULL, '{}', 1.5, '2020')"},
         {8,
          "INSERT INTO duplicate_generations VALUES (3, 1, '2020');"
-         "INSERT INTO duplicates VALUES (3, 1, 2, 'near', 0.5)"}};
+         "INSERT INTO duplicates VALUES (3, 1, 2, 'near', 0.5)"},
+        {9, "INSERT INTO snapshots VALUES (2, x'" + kToken + "', 5, '2020')"}};
     for (const auto& [since, sql] : rows) {
         if (version >= since) run_sql(database, sql);
     }
@@ -52,6 +59,8 @@ void expect_newer_rows(Database& database, int version) {
     EXPECT_EQ(expect(feedback.count("painted")), version >= 7 ? 1 : 0);
     DuplicateStore duplicates(database);
     EXPECT_EQ(expect(duplicates.pairs(0)).size(), version >= 8 ? 1u : 0u);
+    SnapshotStore snapshots(database);
+    EXPECT_EQ(expect(snapshots.find(kTokenBytes)).has_value(), version >= 9);
     // All three files of the fixture have one hash.
     EXPECT_EQ(expect(duplicates.same_content()).size(), 1u);
 }

@@ -10,6 +10,7 @@
 #include "schema/image_store.h"
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
+#include "schema/snapshot_store.h"
 #include "tests/schema/failing_files.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
@@ -28,6 +29,7 @@ struct Stores {
     JobStore jobs{database};
     FeedbackStore feedback{database};
     DuplicateStore duplicates{database};
+    SnapshotStore snapshots{database};
 };
 
 StoredProfile some_profile() {
@@ -82,7 +84,8 @@ std::string rows_of(const std::string& path) {
           "id, kind, target FROM feedback",
           "generation, published FROM duplicate_generations",
           "generation, a, b FROM duplicates",
-          "a, b FROM ignored_duplicates"}) {
+          "a, b FROM ignored_duplicates",
+          "number, seq FROM snapshots"}) {
         const auto from = columns.find(" FROM");
         all += sql_text(database.handle(),
                         "SELECT coalesce(group_concat(json_array(" +
@@ -191,6 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
         Operation{
             "AddFeedback",
             [](Stores& s) { return without_value(s.feedback.add(some_feedback())); }},
+        Operation{"AddSnapshot",
+                  [](Stores& s) { return without_value(s.snapshots.add(1)); }},
         Operation{"RemoveFeedback", [](Stores& s) { return s.feedback.remove(1); }},
         Operation{
             "BeginGeneration",

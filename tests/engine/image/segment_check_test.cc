@@ -312,7 +312,10 @@ TEST_F(DamagedSegment, HasFewerOrMoreRanksThanBits) {
         const int place = more ? std::countr_one(bits) : std::countr_zero(bits);
         ASSERT_LT(place, kSlots % 64);
         bits ^= std::uint64_t{1} << place;
-        of_this.expect_damage("end of ranks");
+        // One bit more is one rank behind the end.
+        of_this.expect_damage(more ? "ranks of block " +
+                                         number(spans.dense_rank_begin.size() - 1)
+                                   : "end of ranks");
     }
 }
 

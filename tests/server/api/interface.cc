@@ -29,8 +29,9 @@ Interface::Interface(std::vector<std::string> media_roots, bool allow_url_fetch)
     JobRunnerOptions running;
     running.database_path = path;
     running.progress_interval = std::chrono::milliseconds(0);
-    auto started =
-        JobRunner::start(running, job_types(index, {path, media_roots_, 1}, {}));
+    auto started = JobRunner::start(
+        running,
+        job_types(index, collection.service->snapshots(), {path, media_roots_, 1}, {}));
     if (!started) throw std::runtime_error(started.error().message);
     replace_jobs(std::move(started).value());
 }

@@ -1,6 +1,7 @@
 // /jobs: queued, listed, followed, cancelled, and what is refused before it is queued.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -112,12 +113,28 @@ TEST_F(JobsTest, AFolderThatIsGoneWhenItsTurnComesFailsTheJob) {
             << request;
 }
 
+TEST_F(JobsTest, ASnapshotIsWrittenAndToldAbout) {
+    for (unsigned number = 1; number <= 3; ++number) interface_.collection.add(number);
+    const json job = run({{"type", "snapshot"}});
+    EXPECT_EQ(job["state"], "done");
+    const auto bytes =
+        std::filesystem::file_size(snapshot_path_of(interface_.collection.path()));
+    EXPECT_EQ(job["counts"]["seen"], bytes);
+    EXPECT_EQ(job["total"], bytes);
+    EXPECT_EQ(job["result"]["bytes"], bytes);
+    EXPECT_EQ(job["result"]["images"], 3);
+    const json status = json_of(interface_.get("/status"));
+    EXPECT_EQ(job["result"]["sequence"], status["sequence"]);
+    EXPECT_EQ(status["snapshot_sequence"], status["sequence"]);
+    EXPECT_EQ(status["began_with_snapshot"], 0);
+}
+
 TEST_F(JobsTest, WhatCanNeverSucceedIsRefusedAtOnce) {
     const std::vector<std::pair<json, Refusal>> refusals{
         {json::object(), {400, "invalid_argument", "type"}},
         {{{"type", "paint"}}, {400, "invalid_argument", "type"}},
         {{{"type", 1}}, {400, "invalid_argument", "type"}},
-        {{{"type", "snapshot"}}, {400, "not_built", "type"}},
+        {{{"type", "snapshot"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "ingest"}}, {400, "invalid_argument", "paths"}},
         {{{"type", "reindex"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "reindex"}, {"profile", "x"}}, {400, "unknown_profile", "profile"}},

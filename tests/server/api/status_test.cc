@@ -100,6 +100,8 @@ TEST(Status, CountsAreFlatNumbersAndTrue) {
     EXPECT_EQ(status["damaged_signatures"], 0);
     EXPECT_EQ(status["index_m"], 60);
     EXPECT_EQ(status["ready"], 1);
+    EXPECT_EQ(status["snapshot_sequence"], 0);
+    EXPECT_EQ(status["began_with_snapshot"], 0);
     EXPECT_EQ(status["bytes_per_image"].get<double>(),
               status["index_bytes"].get<double>() / 4);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/image/query.h"
+#include "engine/image/segment.h"
 #include "ingest/variant.h"
 #include "tests/server/app/collection.h"
 
@@ -35,6 +36,7 @@ class FixedSnapshot final : public image::IndexSnapshot {
         return matches;
     }
     image::IndexStats stats() const override { return {}; }
+    std::vector<image::LiveSegment> sealed() const override { return {}; }
 
     static image::Score score_of(std::int64_t id) {
         return -900'000'000 + id * 30'000'000;
