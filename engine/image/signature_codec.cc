@@ -33,8 +33,8 @@ Error invalid(std::string message) {
 
 // A channel of a colour space, as messages name it.
 struct ChannelOf {
-    ColorSpace space;
-    int channel;
+    ColorSpace space{};
+    int channel = 0;
 
     [[nodiscard]] std::string text() const {
         return " in channel " + std::string(channel_name(space, channel));
@@ -57,29 +57,44 @@ std::optional<Error> check_count(const ChannelOf& channel, std::size_t count) {
                    ", at most " + std::to_string(kMaxCoefficients));
 }
 
-// Appends signed indices to one channel, refusing those that no picture can have.
-// Requires: at most kMaxCoefficients calls for a channel.
+// Appends signed indices to one channel after the other, refusing those that no picture can
+// have. Requires: at most kMaxCoefficients for a channel.
 class IndexReader {
   public:
-    explicit IndexReader(const ChannelOf& channel) : channel_(channel) {}
+    // For all that follow. Only the bits that the channel before has set are cleared.
+    void begin(const ChannelOf& channel, ChannelSignature& out) {
+        if (out_ != nullptr) {
+            for (const std::int16_t index : out_->largest(kMaxCoefficients))
+                seen_.reset(std::size_t(std::abs(index)));
+        }
+        channel_ = channel;
+        out_ = &out;
+    }
 
-    std::optional<Error> add(int signed_index, ChannelSignature& out) {
+    // Whether it could be appended.
+    [[nodiscard]] bool add(int signed_index) {
+        const std::int64_t index = std::abs(std::int64_t{signed_index});
+        if (index == 0 || index >= kCoefficientCount || seen_[std::size_t(index)])
+            return false;
+        seen_[std::size_t(index)] = true;
+        out_->indices[out_->count++] = static_cast<std::int16_t>(signed_index);
+        return true;
+    }
+
+    // Why not.
+    [[nodiscard]] Error refusal(int signed_index) const {
         const std::int64_t index = std::abs(std::int64_t{signed_index});
         if (index == 0 || index >= kCoefficientCount) {
             return invalid("index " + std::to_string(signed_index) + channel_.text() +
                            " is outside 1.." + std::to_string(kCoefficientCount - 1));
         }
-        if (seen_.test(std::size_t(index))) {
-            return invalid("index " + std::to_string(index) + channel_.text() +
-                           " is there twice");
-        }
-        seen_.set(std::size_t(index));
-        out.indices[out.count++] = static_cast<std::int16_t>(signed_index);
-        return std::nullopt;
+        return invalid("index " + std::to_string(index) + channel_.text() +
+                       " is there twice");
     }
 
   private:
-    ChannelOf channel_;
+    ChannelOf channel_{};
+    ChannelSignature* out_ = nullptr;
     std::bitset<kCoefficientCount> seen_;
 };
 
@@ -207,16 +222,17 @@ Result<Signature> decode_signature(std::span<const std::uint8_t> bytes) {
     }
 
     const std::uint8_t* next = bytes.data() + kSignatureHeaderBytes;
+    IndexReader reader;
     for (int c = 0; c < kChannels; ++c) {
         const ChannelOf place{signature.kind.color_space, c};
         ChannelSignature& channel = signature.channels[c];
         channel.average = get_le32(bytes.data() + kAverageOffset + 4 * std::size_t(c));
         const double average = channel.average / double{kAverageOne};
         if (auto error = check_average(place, average)) return *std::move(error);
-        IndexReader reader(place);
+        reader.begin(place, channel);
         for (int i = 0; i < bytes[kCountOffset + c]; ++i, next += 2) {
-            if (auto error = reader.add(get_le16(next), channel))
-                return *std::move(error);
+            const std::int16_t index = get_le16(next);
+            if (!reader.add(index)) return reader.refusal(index);
         }
     }
     return signature;
@@ -253,6 +269,7 @@ Result<Signature> from_open(const OpenSignature& open) {
     Signature signature;
     signature.kind = open.kind;
     bool any = false;
+    IndexReader reader;
     for (int c = 0; c < kChannels; ++c) {
         const ChannelOf place{open.kind.color_space, c};
         ChannelSignature& channel = signature.channels[c];
@@ -261,9 +278,9 @@ Result<Signature> from_open(const OpenSignature& open) {
             static_cast<std::int32_t>(std::lround(open.average[c] * kAverageOne));
         const std::vector<int>& indices = open.coefficients[c];
         if (auto error = check_count(place, indices.size())) return *std::move(error);
-        IndexReader reader(place);
+        reader.begin(place, channel);
         for (const int index : indices) {
-            if (auto error = reader.add(index, channel)) return *std::move(error);
+            if (!reader.add(index)) return reader.refusal(index);
         }
         any = any || !indices.empty();
     }
