@@ -120,7 +120,6 @@ Result<SnapshotWritten> SnapshotKeeper::write_with(
     const Result<std::uint64_t> bytes = write_snapshot(contents, writing, executor);
     if (!bytes) return bytes.error();
     result.bytes = static_cast<std::int64_t>(*bytes);
-    written_ = result.sequence;
     const std::chrono::duration<double> elapsed =
         std::chrono::steady_clock::now() - started;
     spdlog::info("event=snapshot_written images={} sequence={} bytes={} seconds={:.3f}",
@@ -128,6 +127,7 @@ Result<SnapshotWritten> SnapshotKeeper::write_with(
                  result.sequence,
                  result.bytes,
                  elapsed.count());
+    written_ = result.sequence;
     return result;
 }
 
