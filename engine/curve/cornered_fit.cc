@@ -1,13 +1,13 @@
 #include "engine/curve/cornered_curve.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "engine/curve/bspline.h"
+#include "engine/curve/number_text.h"
 
 namespace haarmony::curve {
 namespace {
@@ -17,9 +17,8 @@ namespace {
 constexpr std::size_t kSamplesPerSegment = 8;
 
 Error corner_error(double u, const char* what) {
-    std::array<char, 128> message{};
-    std::snprintf(message.data(), message.size(), "corner %.17g %s", u, what);
-    return Error{ErrorCode::kInvalidArgument, message.data(), "corners"};
+    return Error{
+        ErrorCode::kInvalidArgument, "corner " + number_text(u) + " " + what, "corners"};
 }
 
 Result<void> check_corners(std::span<const double> corners, Ends ends) {

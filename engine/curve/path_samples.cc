@@ -4,10 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
+
+#include "engine/curve/number_text.h"
 
 namespace haarmony::curve {
 namespace {
@@ -101,13 +103,11 @@ Result<PathSamples> sample_path(const SvgSubpath& path, double deviation) {
         const double count = chords_of(bezier, 3 * i, deviation, spacing);
         total += count;
         if (!(total <= double(kMostPathSamples))) {
-            std::array<char, 96> message{};
-            std::snprintf(message.data(),
-                          message.size(),
-                          "path data: a deviation of %g takes more than %zu samples",
-                          deviation,
-                          kMostPathSamples);
-            return Error{ErrorCode::kTooLarge, message.data(), "d"};
+            return Error{ErrorCode::kTooLarge,
+                         "path data: a deviation of " + number_text(deviation) +
+                             " takes more than " + std::to_string(kMostPathSamples) +
+                             " samples",
+                         "d"};
         }
         chords[i] = static_cast<std::size_t>(count);
     }

@@ -86,7 +86,8 @@ TEST(BsplineFilters, RefinementIsTheSameCurveAtTheFinerLevel) {
 TEST(BsplineFilters, WaveletsOfAnOpenCurveAreTheOnlyOnesOfMinimalSupport) {
     for (int level = 1; level <= 4; ++level) {
         const std::size_t rows = control_count(level, Ends::kOpen);
-        for (std::size_t column = 0; column < (segment_count(level - 1) + 1) / 2; ++column) {
+        for (std::size_t column = 0; column < (segment_count(level - 1) + 1) / 2;
+             ++column) {
             const Points wavelet = dense::wavelet(level - 1, column);
             const auto filter = spread(wavelet_column(level, Ends::kOpen, column), rows);
             for (std::size_t row = 0; row < rows; ++row)
