@@ -37,6 +37,18 @@ std::string number(double value, int digits) {
     return text == "-0" ? "0" : text;
 }
 
+std::string scientific(double value, int digits) {
+    assert(std::isfinite(value) && digits >= 0 && digits <= 9);
+    std::array<char, 32> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(),
+                                            buffer.data() + buffer.size(),
+                                            value,
+                                            std::chars_format::scientific,
+                                            digits);
+    assert(error == std::errc{});
+    return {buffer.data(), end};
+}
+
 CsvTable::CsvTable(const std::vector<CsvCell>& header) : width_(header.size()) {
     add(header);
 }

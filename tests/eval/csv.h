@@ -19,6 +19,10 @@ namespace haarmony::eval {
 // Requires: value is finite; 0 <= digits <= 9, the most after the point.
 [[nodiscard]] std::string number(double value, int digits);
 
+// With a power of ten, for values of any size: 2.1e-13, 0.0e+00.
+// Requires: value is finite; 0 <= digits <= 9, after the point.
+[[nodiscard]] std::string scientific(double value, int digits);
+
 class CsvCell {
   public:
     CsvCell(std::string_view text) : text_(text) {}

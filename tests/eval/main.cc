@@ -1,12 +1,15 @@
-// haarmony-eval: measures how well and how fast the search works on one's own pictures.
+// haarmony-eval: measures how well and how fast the search works on one's own pictures, and
+// draws the figures of the curves.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "tests/eval/copies.h"
+#include "tests/eval/curves.h"
 #include "tests/eval/figures.h"
 #include "tests/eval/replay.h"
 #include "tests/eval/speed_report.h"
@@ -30,6 +33,14 @@ int run_copies(const CopiesOptions& options) {
     return 0;
 }
 
+int write_and_list(const std::vector<haarmony::eval::OutputFile>& files,
+                   const std::string& folder) {
+    const auto written = haarmony::eval::write_files(files, folder);
+    if (!written) return failed(written.error());
+    for (const auto& file : files) std::cout << folder << '/' << file.name << '\n';
+    return 0;
+}
+
 struct FiguresCommand {
     std::string images;
     std::string out;
@@ -46,10 +57,7 @@ int run_figures(const FiguresCommand& command) {
             std::cerr << line << '\n';
         });
     if (!files) return failed(files.error());
-    const auto written = haarmony::eval::write_files(*files, command.out);
-    if (!written) return failed(written.error());
-    for (const auto& file : *files) std::cout << command.out << '/' << file.name << '\n';
-    return 0;
+    return write_and_list(*files, command.out);
 }
 
 struct SpeedCommand {
@@ -67,11 +75,8 @@ int run_speed(SpeedCommand command) {
     if (!report) return failed(report.error());
     std::cout << to_text(*report);
     if (!command.out.empty()) {
-        const auto files = speed_files(*report);
-        const auto written = haarmony::eval::write_files(files, command.out);
-        if (!written) return failed(written.error());
-        for (const auto& file : files)
-            std::cout << command.out << '/' << file.name << '\n';
+        const int status = write_and_list(speed_files(*report), command.out);
+        if (status != 0) return status;
     }
     return report->mismatches() == 0 ? 0 : 1;
 }
@@ -108,6 +113,12 @@ int main(int argc, char** argv) {
     figures->add_option("--threads", command.threads, "how many at a time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+
+    std::string curves_out;
+    CLI::App* curves = app.add_subcommand(
+        "curves", "the figures of chapter 3 with our own curves, as a page and CSV");
+    curves->add_option("--out", curves_out, "folder for curves.html and the table")
+        ->required();
 
     haarmony::eval::TrainProfileOptions training;
     CLI::App* train = app.add_subcommand(
@@ -181,6 +192,8 @@ int main(int argc, char** argv) {
     }
     if (train->parsed())
         return haarmony::eval::train_profile(training, std::cout, std::cerr);
+    if (curves->parsed())
+        return write_and_list(haarmony::eval::make_curve_figures(), curves_out);
     if (speed->parsed()) return run_speed(std::move(speed_command));
     if (replay->parsed()) {
         const auto replayed = haarmony::eval::replay_database(replay_options, std::cout);

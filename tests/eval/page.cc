@@ -23,6 +23,7 @@ nav ul { columns: 2; padding-left: 1.2rem; }
 a { color: var(--c0); }
 .panels { display: grid; gap: 1rem; margin: 1rem 0;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 21rem), 1fr)); }
+.panels.small { grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); }
 .plot { width: 100%; height: auto; max-width: 32rem; }
 .plot text { fill: var(--ink); font: 10px system-ui, sans-serif; }
 .plot text.tick { fill: var(--soft); }
@@ -34,6 +35,11 @@ a { color: var(--c0); }
 .line { fill: none; stroke: var(--c); stroke-width: 1.7; stroke-linejoin: round; }
 .mark { fill: var(--c); stroke: var(--paper); stroke-width: 0.6; }
 .band { fill: var(--c); opacity: 0.13; }
+.fine { stroke-width: 0.9; } .ghost { stroke-width: 1.1; opacity: 0.45; }
+.ribbon { fill: var(--c); }
+.joint { stroke: var(--c); stroke-width: 2.4; stroke-linecap: round; }
+.sizes { display: flex; flex-wrap: wrap; gap: 1.5rem; align-items: end; margin: 1rem 0; }
+.sizes div { max-width: 100%; overflow-x: auto; }
 .c0 { --c: var(--c0); } .c1 { --c: var(--c1); } .c2 { --c: var(--c2); }
 .c3 { --c: var(--c3); } .c4 { --c: var(--c4); } .c5 { --c: var(--c5); }
 .c6 { --c: var(--c6); } .c7 { --c: var(--c7); } .c8 { --c: var(--c8); }
@@ -118,6 +124,13 @@ std::string paragraph(std::string_view text) {
 
 std::string panels(const std::vector<std::string>& elements) {
     std::string html = "<div class=\"panels\">\n";
+    for (const std::string& content : elements)
+        html += element("div", "", content) + '\n';
+    return html + "</div>\n";
+}
+
+std::string small_panels(const std::vector<std::string>& elements) {
+    std::string html = "<div class=\"panels small\">\n";
     for (const std::string& content : elements)
         html += element("div", "", content) + '\n';
     return html + "</div>\n";

@@ -30,6 +30,9 @@ struct Section {
 // Panels side by side.
 [[nodiscard]] std::string panels(const std::vector<std::string>& elements);
 
+// The same, four to a row where there is room.
+[[nodiscard]] std::string small_panels(const std::vector<std::string>& elements);
+
 // Hidden until it is opened.
 [[nodiscard]] std::string details(std::string_view summary, const std::string& html);
 

@@ -30,6 +30,13 @@ TEST(Csv, NumbersHaveNoNeedlessZeros) {
     EXPECT_EQ(number(1e300, 0).size(), 301U);
 }
 
+TEST(Csv, NumbersOfAnySizeHaveAPowerOfTen) {
+    EXPECT_EQ(scientific(0, 1), "0.0e+00");
+    EXPECT_EQ(scientific(2.13e-13, 1), "2.1e-13");
+    EXPECT_EQ(scientific(-12345, 3), "-1.234e+04");
+    EXPECT_EQ(scientific(-std::numeric_limits<double>::max(), 9).size(), 17U);
+}
+
 TEST(CsvDeathTest, RefusesARowOfAnotherWidthAndWhatIsNotFinite) {
     CsvTable table({"a", "b"});
     EXPECT_DEBUG_DEATH(table.add({"only one"}), "width");

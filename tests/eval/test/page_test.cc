@@ -17,11 +17,13 @@ TEST(Page, IsWellFormedWithAnEntryForEachSection) {
     HtmlTable table({"name", "value"}, 1);
     table.add({"<b>", "1"});
     table.add({"x", "2"}, {false, true});
-    const XmlReading reading = read_xml(without_doctype(
-        page("a & b",
-             paragraph("5 < 6"),
-             {{"one", "First", table.html()},
-              {"two", "Second", panels({"x", "y"}) + details("more", paragraph("p"))}})));
+    const XmlReading reading = read_xml(without_doctype(page(
+        "a & b",
+        paragraph("5 < 6"),
+        {{"one", "First", table.html()},
+         {"two",
+          "Second",
+          panels({"x", "y"}) + small_panels({"z"}) + details("more", paragraph("p"))}})));
     EXPECT_EQ(reading.error, "");
     EXPECT_EQ(reading.elements.at("section"), 2);
     EXPECT_EQ(reading.elements.at("td"), 4);
