@@ -28,9 +28,11 @@ struct Run {
     int count = 0;
     std::array<double, kMost> value{};
 
-    [[nodiscard]] std::span<const double> values() const {
+    [[nodiscard]] std::span<const double> values() const& {
         return std::span(value).first(std::size_t(count));
     }
+    // They would be gone with the run.
+    void values() const&& = delete;
 };
 using Filter = Run<11>;   // a column of P or Q
 using Taps = Run<6>;      // a row of P or Q

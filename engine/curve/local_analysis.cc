@@ -90,9 +90,11 @@ LocalStep analyze_local(const LocalRows& control,
     // Wavelets of one level up are larger by sqrt(2), details smaller.
     const double scale = std::sqrt(std::ldexp(1.0, level - short_level));
     double largest_tap = 0;
-    for (std::size_t row = 0; row < std::min(points.size(), std::size_t{32}); ++row)
-        for (const double tap : wavelet_row(short_level, short_ends, row).values())
+    for (std::size_t row = 0; row < std::min(points.size(), std::size_t{32}); ++row) {
+        const Taps taps = wavelet_row(short_level, short_ends, row);
+        for (const double tap : taps.values())
             largest_tap = std::max(largest_tap, std::abs(tap));
+    }
 
     LocalStep local{trimmed(step.coarse, least),
                     trimmed(step.detail, least / largest_tap),

@@ -26,9 +26,9 @@ double reach_of_details(int level, Ends ends) {
     const std::size_t rows = std::min(control_count(level + 1, ends), std::size_t{32});
     double most = 0;
     for (std::size_t row = 0; row < rows; ++row) {
+        const Taps taps = wavelet_row(level + 1, ends, row);
         double sum = 0;
-        for (const double tap : wavelet_row(level + 1, ends, row).values())
-            sum += std::abs(tap);
+        for (const double tap : taps.values()) sum += std::abs(tap);
         most = std::max(most, sum);
     }
     return most;
