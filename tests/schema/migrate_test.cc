@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "schema/curve_store.h"
 #include "schema/database.h"
 #include "schema/duplicate_store.h"
 #include "schema/feedback_store.h"
@@ -36,7 +37,10 @@ void add_newer_rows(sqlite3* database, int version) {
         {8,
          "INSERT INTO duplicate_generations VALUES (3, 1, '2020');"
          "INSERT INTO duplicates VALUES (3, 1, 2, 'near', 0.5)"},
-        {9, "INSERT INTO snapshots VALUES (2, x'" + kToken + "', 5, '2020')"}};
+        {9, "INSERT INTO snapshots VALUES (2, x'" + kToken + "', 5, '2020')"},
+        {10,
+         "INSERT INTO curves VALUES (6, 'stroke', 'old', 1, 1, x'000000000000F03F',"
+         " '2020')"}};
     for (const auto& [since, sql] : rows) {
         if (version >= since) run_sql(database, sql);
     }
@@ -57,6 +61,12 @@ void expect_newer_rows(Database& database, int version) {
     }
     FeedbackStore feedback(database);
     EXPECT_EQ(expect(feedback.count("painted")), version >= 7 ? 1 : 0);
+    CurveStore curves(database);
+    const auto stroke = curves.get(CurveKind::kStroke, "old");
+    ASSERT_EQ(stroke.has_value(), version >= 10);
+    if (stroke) {
+        EXPECT_EQ(stroke->numbers, std::vector<double>{1});
+    }
     DuplicateStore duplicates(database);
     EXPECT_EQ(expect(duplicates.pairs(0)).size(), version >= 8 ? 1u : 0u);
     SnapshotStore snapshots(database);
