@@ -16,6 +16,7 @@
 #include "server/api/context.h"
 #include "server/api/routes.h"
 #include "server/app/cluster_overview.h"
+#include "server/app/curve_service.h"
 #include "server/app/duplicate_groups.h"
 #include "server/app/image_service.h"
 #include "server/app/job_runner.h"
@@ -141,6 +142,8 @@ int run_daemon(const Config& config) {
     if (!jobs) return leave(kExitCouldNotRun, jobs.error());
     auto duplicates = DuplicateGroups::open(config.database);
     if (!duplicates) return leave(kExitCouldNotRun, duplicates.error());
+    auto curves = CurveService::open(config.database);
+    if (!curves) return leave(kExitCouldNotRun, curves.error());
     ClusterOverview clusters(
         config.database, images.value()->index(), config.threads - 1);
 
@@ -148,6 +151,7 @@ int run_daemon(const Config& config) {
                           *jobs.value(),
                           *duplicates.value(),
                           clusters,
+                          *curves.value(),
                           std::move(media_roots).value(),
                           config.allow_url_fetch,
                           config.max_body};

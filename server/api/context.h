@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "server/app/cluster_overview.h"
+#include "server/app/curve_service.h"
 #include "server/app/duplicate_groups.h"
 #include "server/app/image_service.h"
 #include "server/app/job_runner.h"
@@ -16,6 +17,7 @@ struct Context {
     JobRunner& jobs;
     DuplicateGroups& duplicates;
     ClusterOverview& clusters;
+    CurveService& curves;
     MediaRoots media_roots;
     bool allow_url_fetch = false;
     std::uint64_t max_body = std::uint64_t{64} << 20;  // bytes of a picture or of JSON

@@ -128,7 +128,11 @@ MaybeProblem Inputs::add_body(const http::Request& request) {
 
 MaybeProblem Inputs::add_json(const std::string& body) {
     Result<json> parsed = http::parse_json(body);
-    if (!parsed) return http::problem_of(parsed.error());
+    if (!parsed) {
+        http::Problem problem = http::problem_of(parsed.error());
+        if (!problem.param.empty()) problem.code = kNotFinite;
+        return problem;
+    }
     return add_object(std::move(parsed).value());
 }
 
@@ -306,12 +310,17 @@ std::optional<json> Inputs::any(std::string_view name) {
     return input->value;
 }
 
-std::optional<json> Inputs::member(std::string_view name) {
+const json* Inputs::peek(std::string_view name) {
     const Input* input = take(name);
-    if (input == nullptr) return {};
-    if (!input->is_text) return input->value;
+    if (input == nullptr) return nullptr;
+    if (!input->is_text) return &input->value;
     refuse(name, "can only be a member of a JSON body");
-    return {};
+    return nullptr;
+}
+
+std::optional<json> Inputs::member(std::string_view name) {
+    const json* value = peek(name);
+    return value == nullptr ? std::optional<json>() : std::optional<json>(*value);
 }
 
 }  // namespace haarmony::server

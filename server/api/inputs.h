@@ -28,6 +28,9 @@
 
 namespace haarmony::server {
 
+// The problem code of a number in JSON that is not finite.
+inline constexpr std::string_view kNotFinite = "not_finite";
+
 class Inputs {
   public:
     // The query parameters and the body, by its Content-Type.
@@ -61,6 +64,8 @@ class Inputs {
     [[nodiscard]] std::optional<nlohmann::json> any(std::string_view name);
     // Only a JSON member: text is refused.
     [[nodiscard]] std::optional<nlohmann::json> member(std::string_view name);
+    // The same where it lies, for what would be long to copy; null where it is absent.
+    [[nodiscard]] const nlohmann::json* peek(std::string_view name);
 
     [[nodiscard]] bool has(std::string_view name) const;
     // Whether the input came as text, without a JSON type.

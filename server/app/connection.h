@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/result.h"
+#include "schema/curve_store.h"
 #include "schema/database.h"
 #include "schema/duplicate_store.h"
 #include "schema/feedback_store.h"
@@ -36,6 +37,7 @@ class Connection {
     [[nodiscard]] schema::FeedbackStore& feedback() { return feedback_; }
     [[nodiscard]] schema::JobStore& jobs() { return jobs_; }
     [[nodiscard]] schema::DuplicateStore& duplicates() { return duplicates_; }
+    [[nodiscard]] schema::CurveStore& curves() { return curves_; }
     [[nodiscard]] schema::SnapshotStore& snapshots() { return snapshots_; }
 
   private:
@@ -46,6 +48,7 @@ class Connection {
           feedback_(database_),
           jobs_(database_),
           duplicates_(database_),
+          curves_(database_),
           snapshots_(database_) {}
 
     schema::Database database_;
@@ -54,6 +57,7 @@ class Connection {
     schema::FeedbackStore feedback_;
     schema::JobStore jobs_;
     schema::DuplicateStore duplicates_;
+    schema::CurveStore curves_;
     schema::SnapshotStore snapshots_;
 };
 

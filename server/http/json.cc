@@ -1,7 +1,11 @@
 #include "server/http/json.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,8 +20,12 @@ constexpr std::size_t kShown = 200;  // bytes of a complaint: it quotes the clie
 // repeat, and depth.
 class StrictBuilder : public nlohmann::json_sax<json> {
   public:
+    explicit StrictBuilder(std::string_view text) : text_(text) {}
+
     json& root() { return root_; }
     [[nodiscard]] const std::string& complaint() const { return complaint_; }
+    // Of the number that is not finite, if that is the complaint.
+    [[nodiscard]] const std::string& place() const { return place_; }
 
     bool null() override { return place(nullptr) != nullptr; }
     bool boolean(bool value) override { return place(value) != nullptr; }
@@ -49,9 +57,16 @@ class StrictBuilder : public nlohmann::json_sax<json> {
         return true;
     }
 
-    bool parse_error(std::size_t /*position*/,
-                     const std::string& /*last_token*/,
+    bool parse_error(std::size_t position,
+                     const std::string& last_token,
                      const json::exception& error) override {
+        if (const std::string_view number = not_finite(position, last_token);
+            !number.empty()) {
+            place_ = next_place();
+            complaint_ = place_ + " '" + std::string(number.substr(0, kShown)) +
+                         "' is not a finite number";
+            return false;
+        }
         // "[json.exception.parse_error.101] parse error at line 1, column 3: ..."
         std::string text = error.what();
         const std::size_t bracket = text.find("] ");
@@ -89,20 +104,58 @@ class StrictBuilder : public nlohmann::json_sax<json> {
         return true;
     }
 
+    // The text of a number too large for a double, or one of the words that many writers
+    // use though JSON has none; else nothing. The parser has read up to `position`: all of
+    // such a number, the token, and of such a word what is no other token's beginning.
+    [[nodiscard]] std::string_view not_finite(std::size_t position,
+                                              const std::string& last_token) const {
+        constexpr std::pair<std::string_view, std::size_t> kWords[] = {
+            {"NaN", 1}, {"-Infinity", 2}, {"Infinity", 1}};
+        for (const auto& [word, read] : kWords)
+            if (position >= read && position <= text_.size() &&
+                text_.substr(position - read).starts_with(word))
+                return word;
+        double value = 0;
+        const char* const end = last_token.data() + last_token.size();
+        const auto [stop, failure] = std::from_chars(last_token.data(), end, value);
+        return failure == std::errc::result_out_of_range && stop == end
+                   ? std::string_view(last_token)
+                   : std::string_view();
+    }
+
+    // Where the next value goes: "points[3][1]".
+    [[nodiscard]] std::string next_place() const {
+        std::string path;
+        for (std::size_t depth = 0; depth < open_.size(); ++depth) {
+            const bool innermost = depth + 1 == open_.size();
+            const json* next = innermost ? member_ : open_[depth + 1];
+            if (open_[depth]->is_array()) {
+                const std::size_t index = open_[depth]->size() - (innermost ? 0 : 1);
+                path += '[' + std::to_string(index) + ']';
+                continue;
+            }
+            for (const auto& [name, value] : open_[depth]->items())
+                if (&value == next) path += (path.empty() ? "" : ".") + name;
+        }
+        return path;
+    }
+
+    std::string_view text_;
     json root_;
     std::vector<json*> open_;  // the containers around the next value, outermost first
     json* member_ = nullptr;   // of the innermost object: waits for its value
     std::string complaint_;
+    std::string place_;
 };
 
 }  // namespace
 
 Result<json> parse_json(const std::string& text) {
-    StrictBuilder builder;
+    StrictBuilder builder(text);
     if (!json::sax_parse(text, &builder)) {
         return Error{.code = ErrorCode::kInvalidArgument,
                      .message = builder.complaint(),
-                     .param = {}};
+                     .param = builder.place()};
     }
     return std::move(builder.root());
 }

@@ -1,8 +1,9 @@
 // JSON bodies: read strictly, written safely.
 //
 // Errors  kInvalidArgument saying where: malformed text (line and column), text that is not
-//         UTF-8, a number that is not finite, nesting deeper than kMaxJsonDepth, an object
-//         with the same member twice.
+//         UTF-8, a number that is not finite (then, and only then, `param` is its place:
+//         "points[3][1]"), nesting deeper than kMaxJsonDepth, an object with the same
+//         member twice.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

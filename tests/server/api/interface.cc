@@ -25,6 +25,9 @@ Interface::Interface(std::vector<std::string> media_roots, bool allow_url_fetch)
     auto groups = DuplicateGroups::open(path);
     if (!groups) throw std::runtime_error(groups.error().message);
     duplicates = std::move(groups).value();
+    auto opened = CurveService::open(path);
+    if (!opened) throw std::runtime_error(opened.error().message);
+    curves = std::move(opened).value();
     clusters = std::make_unique<ClusterOverview>(path, index, 1);
     JobRunnerOptions running;
     running.database_path = path;
@@ -42,6 +45,7 @@ void Interface::replace_jobs(std::unique_ptr<JobRunner> runner) {
                                                  *jobs,
                                                  *duplicates,
                                                  *clusters,
+                                                 *curves,
                                                  media_roots_,
                                                  allow_url_fetch_});
     router_ = std::make_unique<http::Router>();

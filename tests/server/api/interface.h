@@ -46,6 +46,7 @@ class Interface {
     std::unique_ptr<JobRunner> jobs;
     std::unique_ptr<DuplicateGroups> duplicates;
     std::unique_ptr<ClusterOverview> clusters;
+    std::unique_ptr<CurveService> curves;
 
   private:
     MediaRoots media_roots_;

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/curve/built_in_character.h"
 #include "server/api/routes.h"
 #include "server/embedded.h"
 #include "server/version.h"
+#include "tests/server/api/drawn_curves.h"
 #include "tests/server/api/interface.h"
 #include "tests/server/api/json_schema.h"
 #include "tests/server/app/job_watch.h"
@@ -231,6 +233,103 @@ TEST(Openapi, JobsAndTheCollectionAreAsDescribed) {
         std::nullopt);
     check("GET", "/clusters", 200, interface.get("/clusters?count=2"));
     check("GET", "/clusters", 400, interface.get("/clusters?count=0"));
+}
+
+TEST(Openapi, CurvesAndSurfacesAreAsDescribed) {
+    Interface interface;
+    const auto check = [&](const std::string& method,
+                           const std::string& pattern,
+                           int status,
+                           const json& body,
+                           const std::string& name = "") {
+        std::string target = pattern;
+        if (const auto at = target.find("{name}"); at != std::string::npos)
+            target.replace(at, 6, name);
+        const http::Headers headers =
+            body.is_null() ? http::Headers{}
+                           : http::Headers{{"Content-Type", "application/json"}};
+        const http::Response response = interface.send(
+            method, target, headers, body.is_null() ? std::string() : body.dump());
+        EXPECT_EQ(response.status, status)
+            << method << " " << target << body_of(response);
+        EXPECT_EQ(violation_of(method, pattern, response), std::nullopt)
+            << method << " " << target << "\n"
+            << body_of(response);
+        if (body.is_null() || status >= 300) return json_of(response);
+        const json& described = document()["paths"][pattern][lower(method)]["requestBody"]
+                                          ["content"]["application/json"]["schema"];
+        EXPECT_EQ(violation(body, described, document()), std::nullopt) << body;
+        return json_of(response);
+    };
+    const json points = random_points(11, 2, 1);
+    const json curve{{"points", points}};
+    const json stroke{{"samples", random_points(30, 2, 2)}, {"corners", {0.5}}};
+    const json path{{"d", "M0 0L9 9L18 0z"}, {"subpath", 0}, {"fit_tolerance", 1}};
+    for (const json& source : {curve, stroke, path}) {
+        json apart = check("POST", "/curve/decompose", 200, source);
+        check("POST", "/curve/smooth", 200, with(source, {{"level", 0.5}}));
+        check(
+            "POST",
+            "/curve/edit",
+            200,
+            with(source, {{"level", 1}, {"control", {{"index", 1}, {"delta", {1, 2}}}}}));
+        check("POST",
+              "/curve/edit",
+              200,
+              with(source,
+                   {{"portion", 0.5},
+                    {"portion_unit", "fraction"},
+                    {"drag", "full"},
+                    {"point", {{"near", {5, 5}}, {"delta", {1, 2}}}}}));
+        check("POST", "/curve/fit", 200, with(source, {{"pin_ends", false}}));
+        check("POST", "/curve/approximate", 200, with(source, {{"tolerance", 9}}));
+        check("POST", "/curve/evaluate", 200, with(source, {{"count", 3}}));
+        check("POST", "/curve/match", 200, with(source, {{"limit", 3}}));
+        const json taken{{"coarse", apart["coarse"]},
+                         {"details", apart["details"]},
+                         {"closed", apart.value("closed", false)}};
+        check("POST", "/curve/reconstruct", 200, taken);
+        check("POST", "/curve/character", 200, with(source, {{"character", taken}}));
+    }
+    const json dot{{"points", {{1, 2}, {1, 2}, {1, 2}, {1, 2}}}, {"count", 2}};
+    check("POST", "/curve/evaluate", 200, dot);
+    check("POST", "/curve/smooth", 422, with(curve, {{"level", 9}}));
+    check("POST", "/curve/smooth", 400, with(curve, {{"level", "x"}}));
+    check("POST", "/curve/character", 404, with(curve, {{"character", "none"}}));
+    const std::string built_in(curve::built_in_characters().front().name);
+    check("POST", "/curve/character", 200, with(curve, {{"character", built_in}}));
+
+    const std::string characters = "/curve/characters/{name}";
+    check("PUT", characters, 201, stroke, "a");
+    check("PUT", characters, 200, curve, "a");
+    check("PUT", characters, 409, curve, built_in);
+    check("GET", characters, 200, json(), "a");
+    check("GET", characters, 200, json(), built_in);
+    check("GET", "/curve/characters", 200, json());
+    check("DELETE", characters, 204, json(), "a");
+    check("DELETE", characters, 404, json(), "a");
+    check("DELETE", characters, 409, json(), built_in);
+    const std::string strokes = "/curve/strokes/{name}";
+    check("PUT", strokes, 201, stroke, "s");
+    check("GET", strokes, 200, json(), "s");
+    EXPECT_EQ(check("POST", "/curve/match", 200, stroke)["items"].size(), 1u);
+    check("DELETE", strokes, 204, json(), "s");
+    check("GET", strokes, 404, json(), "s");
+
+    json grid = json::array();
+    for (unsigned row = 0; row < 5; ++row) grid.push_back(random_points(7, 3, row));
+    const json surface{{"points", grid}};
+    check("POST",
+          "/surface/reconstruct",
+          200,
+          check("POST", "/surface/decompose", 200, surface));
+    check("POST",
+          "/surface/edit",
+          200,
+          with(surface,
+               {{"level", {1, 1.5}},
+                {"control", {{"index", {1, 2}}, {"delta", {1, 2, 3}}}}}));
+    check("POST", "/surface/decompose", 422, {{"points", json::array()}});
 }
 
 TEST(Openapi, RequestsThatAreTakenAreDescribed) {

@@ -198,9 +198,9 @@ TEST_F(QueryRefusalTest, BodiesThatAreNotRead) {
     expect_problem(interface_.post("/query", "application/json", R"({"id":1,"id":1})"),
                    {400, "invalid_argument", ""});
     expect_problem(interface_.post("/query", "application/json", R"({"id":1,"m":1e999})"),
-                   {400, "invalid_argument", ""});
+                   {400, "not_finite", "m"});
     expect_problem(interface_.post("/query", "application/json", R"({"id":1,"m":NaN})"),
-                   {400, "invalid_argument", ""});
+                   {400, "not_finite", "m"});
     expect_problem(interface_.post("/query", "multipart/form-data", "--x--"),
                    {400, "invalid_argument", ""});
 }

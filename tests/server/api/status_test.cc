@@ -57,11 +57,14 @@ TEST(Status, UntilTheCollectionIsLoadedTheDaemonIsWellButNotReady) {
     ASSERT_TRUE(jobs);
     const auto duplicates = DuplicateGroups::open(collection.path());
     ASSERT_TRUE(duplicates);
+    const auto curves = CurveService::open(collection.path());
+    ASSERT_TRUE(curves);
     ClusterOverview clusters(collection.path(), service.value()->index(), 0);
     const Context context{*service.value(),
                           *jobs.value(),
                           *duplicates.value(),
                           clusters,
+                          *curves.value(),
                           MediaRoots::open({}).value()};
     http::Router router;
     add_routes(context, router);

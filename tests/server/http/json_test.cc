@@ -88,6 +88,19 @@ TEST(Json, NumbersThatAreNotFiniteAreRefused) {
     EXPECT_THAT(complaint("[1e999]"), HasSubstr("1e999"));
 }
 
+TEST(Json, ThePlaceOfANumberThatIsNotFiniteIsNamed) {
+    const auto place = [](const std::string& text) {
+        return parse_json(text).error().param;
+    };
+    EXPECT_EQ(place(R"({"a":1,"points":[[0,1],[2,1e999]]})"), "points[1][1]");
+    EXPECT_EQ(place(R"({"points":[[NaN,1]]})"), "points[0][0]");
+    EXPECT_EQ(place(R"({"a":{"u":-Infinity}})"), "a.u");
+    EXPECT_EQ(place("[[],[1],-1e400]"), "[2]");
+    EXPECT_EQ(place(R"({"a":tru})"), "");
+    EXPECT_EQ(place(R"({"a":1e-400x})"), "");
+    EXPECT_TRUE(parse_json("[1e-400]"));
+}
+
 TEST(Json, MemberThatAppearsTwiceIsNamed) {
     EXPECT_EQ(complaint(R"({"limit":1,"x":{"limit":2},"limit":3})"),
               "JSON member 'limit' appears twice");
