@@ -34,7 +34,7 @@ std::vector<double> places_of(std::span<const double> corners, std::size_t piece
     }
     std::ranges::sort(places);
     const auto same = [](double a, double b) { return b - a < kAtJoint; };
-    places.erase(std::ranges::unique(places, same).begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end(), same), places.end());
     return places;
 }
 

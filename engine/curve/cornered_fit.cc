@@ -139,8 +139,7 @@ CorneredFit fit_cornered(const Points& samples,
         std::vector<std::size_t> kept;
         for (const std::size_t i : corners) kept.push_back(i % (samples.size() - 1));
         std::ranges::sort(kept);
-        const auto repeated = std::ranges::unique(kept);
-        kept.erase(repeated.begin(), repeated.end());
+        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
         return fit_cornered(rows_of(samples, 0, samples.size() - 2), kept, goal, options);
     }
     FitOptions of_piece = options;

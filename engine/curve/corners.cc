@@ -277,8 +277,7 @@ std::vector<std::size_t> detect_corners(const Points& samples,
         if (ends == Ends::kClosed || !end) corners.push_back(*best);
     }
     std::ranges::sort(corners);
-    const auto repeated = std::ranges::unique(corners);
-    corners.erase(repeated.begin(), repeated.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     return corners;
 }
 

@@ -18,7 +18,7 @@ std::vector<double> inner_corners(std::vector<double> corners, Ends ends) {
     else
         std::erase_if(corners, [](double u) { return u == 0 || u == 1; });
     std::ranges::sort(corners);
-    corners.erase(std::ranges::unique(corners).begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     return corners;
 }
 

@@ -70,7 +70,7 @@ std::optional<http::Problem> read_corners(Inputs& inputs, CurveSource& source) {
                               "corners[" + std::to_string(i) + "]");
     source.corners = *std::move(corners);
     std::ranges::sort(source.corners);
-    source.corners.erase(std::ranges::unique(source.corners).begin(),
+    source.corners.erase(std::unique(source.corners.begin(), source.corners.end()),
                          source.corners.end());
     return {};
 }
