@@ -211,7 +211,8 @@ export class Finder extends EventTarget {
     if (!filtered) this.#screens.count(reply.searched);
     if (reply.searched === 0 && !filtered) return this.#screens.show('empty');
     this.#reply = reply;
-    this.#screens.ask(query);
+    // What was chosen while the answer was on its way stays chosen: it has been asked, too.
+    this.#screens.ask({ ...query, options: this.#options });
     this.#screens.answer(reply);
     this.dispatchEvent(new Event('change'));
     if (!settled) return;
