@@ -1,0 +1,48 @@
+// A .mrv file as a clip: layers are decoded when they are asked for, and kept while there is
+// room for them.
+//   mrv_writer.h -> [mrv_clip.h] -> time_tree.h
+//
+// Errors   kUnsupportedFormat: not a .mrv file; kNewerVersion; kUndecodable: damaged, naming
+//          what is wrong and where. Hostile bytes never crash nor take more memory than the
+//          limit and one frame's chain.
+// Threads  const-thread-safe; two that want the same layer decode it once.
+// Source   sec. 5.2.4 [working storage].
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "engine/core/result.h"
+#include "engine/video/time_tree.h"
+
+namespace haarmony::video {
+
+class MrvClip final : public TimeTree {
+  public:
+    // `file` must stay mapped while the clip lives. `cache_bytes` bounds the layers that are
+    // kept although no Frame holds on to them.
+    [[nodiscard]] static Result<std::unique_ptr<MrvClip>> open(
+        std::span<const std::byte> file,
+        std::size_t cache_bytes);
+    ~MrvClip() override;
+
+    [[nodiscard]] bool stored(const SiblingAddress& address) const override;
+    [[nodiscard]] Result<Frame::Nodes> nodes(
+        const SiblingAddress& address) const override;
+    [[nodiscard]] Result<Frame::LayerPtr> layer(const SiblingAddress& address,
+                                                int space_level) const override;
+
+    [[nodiscard]] std::uint64_t revision() const;
+    [[nodiscard]] std::size_t cached_bytes() const;
+    // Every chunk read and checked: what a clip from elsewhere must pass before it is kept.
+    [[nodiscard]] Result<void> verify() const;
+
+  private:
+    class Impl;
+    explicit MrvClip(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace haarmony::video
