@@ -175,8 +175,8 @@ RawClip random_clip(int width,
                     bool coherent) {
     std::mt19937 random(seed);
     const auto pixel = [&random] {
-        const std::uint32_t bits = random();
-        const std::uint32_t kind = random() % 4;
+        const auto bits = static_cast<std::uint32_t>(random());
+        const auto kind = random() % 4;
         const auto alpha = static_cast<std::uint8_t>(kind == 0   ? 0
                                                      : kind == 1 ? bits >> 24
                                                                  : 255);
