@@ -50,9 +50,10 @@ test('a lost server is told, and found again without help', async () => {
   await page.locator('#banner').waitFor({ state: 'hidden' });
 });
 
-test('the button of the banner does not wait for the next attempt', async () => {
+test('the button of the banner does not wait for the next attempt', async (t) => {
   // Where the clock stands still no attempt is made by itself; it stands in all of a browser.
   const { page: frozen, close } = await openBrowser();
+  t.after(close);
   await frozen.clock.install({ time: 0 });
   await frozen.goto(server.address);
   await frozen.locator('#samples li').first().waitFor();
@@ -66,7 +67,6 @@ test('the button of the banner does not wait for the next attempt', async () => 
   // By the keyboard: where the clock stands still the banner may stand halfway in.
   await frozen.locator('#banner-button').press('Enter');
   await frozen.locator('#grid > li').nth(19).waitFor();
-  await close();
 });
 
 test('the results stay while the server is away', async () => {
