@@ -1,5 +1,5 @@
 // A curve as few Bezier segments, within a tolerance, and how good they are.
-//   draw_segment.h, merge.h -> [approximate.h] -> bezier_text.h
+//   draw_segment.h, merge.h, cornered_curve.h -> [approximate.h] -> bezier_text.h
 //
 // Shape    four rows of `bezier` for each segment, in the order of u.
 // Units    lengths in x and y; what is carried along does not count.
@@ -12,6 +12,7 @@
 #include <span>
 
 #include "engine/core/result.h"
+#include "engine/curve/cornered_curve.h"
 #include "engine/curve/level.h"
 #include "engine/curve/points.h"
 
@@ -38,7 +39,8 @@ struct Approximation {
 
 inline constexpr double kLargestCoordinate = 1e100;  // squares must not overflow
 
-// `corners`: parameters at which the result may turn, for kG1, and has a joint.
+// `corners`: parameters at which the result may turn, and has a joint, which is on the curve
+// unless the result is kDyadic.
 // Requires: control points of a level. Cost: linear in them, usually.
 [[nodiscard]] Result<Approximation> approximate(const Points& control,
                                                 Ends ends,
@@ -52,5 +54,11 @@ inline constexpr double kLargestCoordinate = 1e100;  // squares must not overflo
                                                       Ends ends,
                                                       double tolerance,
                                                       std::span<const double> corners);
+
+// A curve in pieces, which the result has as the curve has them: it may turn at their ends,
+// and where it is not kDyadic goes through them.
+[[nodiscard]] Result<Approximation> approximate_pieces(const CorneredCurve& curve,
+                                                       double tolerance,
+                                                       Joining joining);
 
 }  // namespace haarmony::curve

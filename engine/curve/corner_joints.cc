@@ -23,14 +23,15 @@ void cut(Points& rest, double t, Points& rows, std::size_t piece) {
     }
 }
 
-// In pieces: the whole part is a joint, the rest lies within the piece that follows.
-std::vector<double> places_of(std::span<const double> corners, std::size_t pieces) {
+}  // namespace
+
+std::vector<double> corner_places(std::span<const double> corners, std::size_t pieces) {
     std::vector<double> places;
     for (const double u : corners) {
         assert(u >= 0 && u <= 1);
-        double place = u * static_cast<double>(pieces);
-        if (std::abs(place - std::round(place)) < kAtJoint) place = std::round(place);
-        if (place > 0 && place < static_cast<double>(pieces)) places.push_back(place);
+        const double place = u * static_cast<double>(pieces);
+        const double joint = std::round(place);
+        places.push_back(std::abs(place - joint) < kAtJoint ? joint : place);
     }
     std::ranges::sort(places);
     const auto same = [](double a, double b) { return b - a < kAtJoint; };
@@ -38,12 +39,13 @@ std::vector<double> places_of(std::span<const double> corners, std::size_t piece
     return places;
 }
 
-}  // namespace
-
 CorneredChain split_at_corners(const Points& chain, std::span<const double> corners) {
     assert(chain.size() >= 4 && chain.size() % 3 == 1);
     const std::size_t pieces = chain.size() / 3;
-    const std::vector<double> places = places_of(corners, pieces);
+    std::vector<double> places = corner_places(corners, pieces);
+    std::erase_if(places, [&](double place) {
+        return place == 0 || place == static_cast<double>(pieces);
+    });
     const auto within = static_cast<std::size_t>(std::ranges::count_if(
         places, [](double place) { return place != std::floor(place); }));
     CorneredChain result;

@@ -20,6 +20,12 @@ struct CorneredChain {
     std::vector<std::size_t> joints;  // ascending, without the ends
 };
 
+// Where corners are, in pieces: the whole part is a joint, the rest lies within the piece that
+// follows. Ascending; places that are as good as the same count once, and what is as good as a
+// joint is one. Requires: each corner in [0, 1], in any order.
+[[nodiscard]] std::vector<double> corner_places(std::span<const double> corners,
+                                                std::size_t pieces);
+
 // Corners at the ends are none. Requires: each in [0, 1], in any order.
 [[nodiscard]] CorneredChain split_at_corners(const Points& chain,
                                              std::span<const double> corners);

@@ -12,9 +12,12 @@ namespace {
 
 class Drawing {
   public:
-    Drawing(std::span<const SegmentLevel> levels, double tolerance)
-        : levels_(levels), tolerance_(tolerance) {
+    Drawing(std::span<const SegmentLevel> levels,
+            double tolerance,
+            std::span<const std::size_t> turns)
+        : levels_(levels), tolerance_(tolerance), turns_(turns) {
         assert(!levels.empty() && tolerance > 0);
+        assert(std::ranges::is_sorted(turns));
         double size = 0;
         for (const SegmentLevel& level : levels) {
             for (std::size_t i = 0; i < level.bezier.size(); ++i) {
@@ -35,7 +38,7 @@ class Drawing {
     }
 
     void draw(SegmentName s, std::vector<SegmentName>& names) const {
-        if (bound(s) < tolerance_ || s.level == finest()) {
+        if ((bound(s) < tolerance_ && !turns_within(s)) || s.level == finest()) {
             names.push_back(s);
             return;
         }
@@ -62,39 +65,68 @@ class Drawing {
         return result;
     }
 
-    // By how much averaging moves each segment's start; one more for the end of the last.
-    std::vector<double> moves(std::span<const SegmentName> names, Ends ends) const {
-        std::vector<double> result(names.size() + 1);
-        for (std::size_t i = 1; i < names.size(); ++i) {
-            result[i] = move(names[i - 1], names[i]);
-        }
-        if (ends == Ends::kClosed) {
-            result.front() = result.back() = move(names.back(), names.front());
+    // Where segments i - 1 and i meet, by i; the first and last row are the ends.
+    Points joints(std::span<const SegmentName> names, Ends ends) const {
+        const std::size_t count = names.size();
+        const bool around = ends == Ends::kClosed;
+        Points result(count + 1, levels_.front().bezier.dimension());
+        for (std::size_t i = 0; i <= count; ++i) {
+            const bool end = i == 0 || i == count;
+            const std::size_t knot = i == count ? knots() : start_of(names[i]);
+            const bool turns =
+                turns_at(knot) || (end && around && turns_at(knots() - knot));
+            const auto before = row(names[i == 0 ? count - 1 : i - 1], 3);
+            const auto after = row(names[i == count ? 0 : i], 0);
+            const auto curve = levels_.back().bezier[3 * knot];
+            for (std::size_t d = 0; d < result[i].size(); ++d) {
+                result[i][d] = turns            ? curve[d]
+                               : !end || around ? (before[d] + after[d]) / 2
+                               : i == 0         ? after[d]
+                                                : before[d];
+            }
         }
         return result;
+    }
+
+    // By how much a segment moves when its ends do.
+    double move(SegmentName s,
+                std::span<const double> start,
+                std::span<const double> end) const {
+        // B_0 and B_3 are together at most 1: of two moved ends the larger move counts.
+        return std::max(distance(row(s, 0), start), distance(row(s, 3), end));
     }
 
     double tolerance() const { return tolerance_; }
 
   private:
-    double move(SegmentName before, SegmentName after) const {
-        const double gap = norm(in_plane(row(after, 0)) - in_plane(row(before, 3)));
-        return gap > 0 ? gap / 2 + rounding_ : 0;
+    double distance(std::span<const double> from, std::span<const double> to) const {
+        const double length = norm(in_plane(to) - in_plane(from));
+        return length > 0 ? length + rounding_ : 0;
+    }
+
+    std::size_t knots() const { return levels_.back().bezier.size() / 3; }
+    std::size_t start_of(SegmentName s) const { return s.index << (finest() - s.level); }
+
+    bool turns_at(std::size_t knot) const {
+        return std::ranges::binary_search(turns_, knot);
+    }
+    bool turns_within(SegmentName s) const {
+        const auto first = std::upper_bound(turns_.begin(), turns_.end(), start_of(s));
+        return first != turns_.end() && *first < start_of({s.level, s.index + 1});
     }
 
     std::span<const SegmentLevel> levels_;
     double tolerance_;
+    std::span<const std::size_t> turns_;
     double rounding_ = 0;
 };
 
-void average(std::span<double> a, std::span<double> b) {
-    for (std::size_t d = 0; d < a.size(); ++d) a[d] = b[d] = (a[d] + b[d]) / 2;
-}
-
 }  // namespace
 
-DrawnSegments draw_segments(std::span<const SegmentLevel> levels, double tolerance) {
-    const Drawing drawing(levels, tolerance);
+DrawnSegments draw_segments(std::span<const SegmentLevel> levels,
+                            double tolerance,
+                            std::span<const std::size_t> turns) {
+    const Drawing drawing(levels, tolerance, turns);
     std::vector<SegmentName> names;
     drawing.draw({0, 0}, names);
     return drawing.drawn(std::move(names));
@@ -102,21 +134,22 @@ DrawnSegments draw_segments(std::span<const SegmentLevel> levels, double toleran
 
 DrawnSegments draw_joined_segments(std::span<const SegmentLevel> levels,
                                    Ends ends,
-                                   double tolerance) {
-    const Drawing drawing(levels, tolerance);
+                                   double tolerance,
+                                   std::span<const std::size_t> turns) {
+    const Drawing drawing(levels, tolerance, turns);
     std::vector<SegmentName> names;
     drawing.draw({0, 0}, names);
-    std::vector<double> moves;
+    Points joints;
     // A split changes the moves of its neighbours, so all is looked at again. It ends:
     // segments of the finest level meet.
     for (bool again = true; again;) {
         again = false;
-        moves = drawing.moves(names, ends);
+        joints = drawing.joints(names, ends);
         std::vector<SegmentName> finer;
         for (std::size_t i = 0; i < names.size(); ++i) {
             const SegmentName s = names[i];
-            // B_0 and B_3 are together at most 1: of two moved ends the larger move counts.
-            const double bound = drawing.bound(s) + std::max(moves[i], moves[i + 1]);
+            const double bound =
+                drawing.bound(s) + drawing.move(s, joints[i], joints[i + 1]);
             if (bound < drawing.tolerance() || s.level == drawing.finest()) {
                 finer.push_back(s);
                 continue;
@@ -128,15 +161,12 @@ DrawnSegments draw_joined_segments(std::span<const SegmentLevel> levels,
         names = std::move(finer);
     }
     DrawnSegments result = drawing.drawn(std::move(names));
-    const std::size_t count = result.names.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        result.bound =
-            std::max(result.bound,
-                     drawing.bound(result.names[i]) + std::max(moves[i], moves[i + 1]));
-        const bool last = i + 1 == count;
-        if (!last || ends == Ends::kClosed) {
-            average(result.bezier[4 * i + 3], result.bezier[last ? 0 : 4 * (i + 1)]);
-        }
+    for (std::size_t i = 0; i < result.names.size(); ++i) {
+        const SegmentName s = result.names[i];
+        result.bound = std::max(
+            result.bound, drawing.bound(s) + drawing.move(s, joints[i], joints[i + 1]));
+        std::ranges::copy(joints[i], result.bezier[4 * i].begin());
+        std::ranges::copy(joints[i + 1], result.bezier[4 * i + 3].begin());
     }
     return result;
 }

@@ -59,7 +59,7 @@ class DrawSegment : public testing::TestWithParam<Ends> {
 
 TEST_P(DrawSegment, OutputsTheCoarsestSegmentsWhoseBoundIsBelowTheTolerance) {
     for (const double tolerance : {0.3, 2.0, 10.0, 1000.0}) {
-        const DrawnSegments drawn = draw_segments(levels_, tolerance);
+        const DrawnSegments drawn = draw_segments(levels_, tolerance, {});
         expect_covered_once(drawn.names);
         for (const SegmentName s : drawn.names) {
             EXPECT_LT(levels_[std::size_t(s.level)].bound[s.index], tolerance);
@@ -73,10 +73,11 @@ TEST_P(DrawSegment, OutputsTheCoarsestSegmentsWhoseBoundIsBelowTheTolerance) {
 
 TEST_P(DrawSegment, StaysWithinTheBoundAndTheTolerance) {
     for (const double tolerance : {0.3, 2.0, 10.0, 1000.0}) {
-        const DrawnSegments drawn = draw_segments(levels_, tolerance);
+        const DrawnSegments drawn = draw_segments(levels_, tolerance, {});
         EXPECT_LE(sampled_error(control_, GetParam(), drawn), drawn.bound + 1e-9);
         EXPECT_LT(drawn.bound, tolerance);
-        const DrawnSegments joined = draw_joined_segments(levels_, GetParam(), tolerance);
+        const DrawnSegments joined =
+            draw_joined_segments(levels_, GetParam(), tolerance, {});
         expect_covered_once(joined.names);
         EXPECT_LE(sampled_error(control_, GetParam(), joined), joined.bound + 1e-9);
         EXPECT_LT(joined.bound, tolerance);
@@ -87,7 +88,7 @@ TEST_P(DrawSegment, JoinedSegmentsMeetInEveryDimension) {
     const Points control =
         drawn_stroke({.level = 7, .ends = GetParam(), .dimension = 4, .noise = 1});
     const DrawnSegments drawn =
-        draw_joined_segments(levels_of(control, GetParam()), GetParam(), 2);
+        draw_joined_segments(levels_of(control, GetParam()), GetParam(), 2, {});
     const std::size_t count = drawn.names.size();
     ASSERT_GT(count, 4U);
     ASSERT_LT(count, 128U);
@@ -99,22 +100,59 @@ TEST_P(DrawSegment, JoinedSegmentsMeetInEveryDimension) {
 }
 
 TEST_P(DrawSegment, ATinyToleranceGivesTheCurveItself) {
-    const DrawnSegments drawn = draw_segments(levels_, 1e-9);
+    const DrawnSegments drawn = draw_segments(levels_, 1e-9, {});
     EXPECT_EQ(drawn.names.size(), 128U);
     EXPECT_EQ(drawn.bound, 0);
     EXPECT_EQ(drawn.bezier, four_rows_each(levels_.back().bezier));
-    EXPECT_EQ(draw_joined_segments(levels_, GetParam(), 1e-9).bezier, drawn.bezier);
+    EXPECT_EQ(draw_joined_segments(levels_, GetParam(), 1e-9, {}).bezier, drawn.bezier);
 }
 
 TEST_P(DrawSegment, AVastToleranceGivesOneSegment) {
-    EXPECT_EQ(draw_segments(levels_, 1e6).names, (std::vector{SegmentName{0, 0}}));
-    EXPECT_EQ(draw_joined_segments(levels_, GetParam(), 1e6).names,
+    EXPECT_EQ(draw_segments(levels_, 1e6, {}).names, (std::vector{SegmentName{0, 0}}));
+    EXPECT_EQ(draw_joined_segments(levels_, GetParam(), 1e6, {}).names,
               (std::vector{SegmentName{0, 0}}));
 }
 
 TEST_P(DrawSegment, ACurveOfLevelZeroIsItsOwnSegment) {
     const Points control = drawn_stroke({.level = 0, .ends = GetParam()});
-    EXPECT_EQ(draw_segments(levels_of(control, GetParam()), 1e-3).names.size(), 1U);
+    EXPECT_EQ(draw_segments(levels_of(control, GetParam()), 1e-3, {}).names.size(), 1U);
+}
+
+TEST_P(DrawSegment, NoneGoesAcrossATurn) {
+    const std::vector<std::size_t> turns{0, 37, 38, 96};
+    for (const double tolerance : {2.0, 1e6}) {
+        for (const bool joined : {false, true}) {
+            const DrawnSegments drawn =
+                joined ? draw_joined_segments(levels_, GetParam(), tolerance, turns)
+                       : draw_segments(levels_, tolerance, turns);
+            expect_covered_once(drawn.names);
+            for (const SegmentName s : drawn.names)
+                for (const std::size_t turn : turns)
+                    EXPECT_FALSE(start_of(s) < double(turn) / 128 &&
+                                 double(turn) / 128 < start_of(s) + width_of(s))
+                        << turn;
+            EXPECT_LE(sampled_error(control_, GetParam(), drawn), drawn.bound + 1e-9);
+            EXPECT_LT(drawn.bound, tolerance);
+        }
+    }
+}
+
+TEST_P(DrawSegment, JoinedSegmentsTurnOnTheCurveItself) {
+    const std::vector<std::size_t> turns{0, 37, 96};
+    const DrawnSegments drawn = draw_joined_segments(levels_, GetParam(), 20, turns);
+    std::size_t met = 0;
+    for (std::size_t i = 0; i < drawn.names.size(); ++i) {
+        const auto knot = std::size_t(std::lround(128 * start_of(drawn.names[i])));
+        if (!std::ranges::binary_search(turns, knot)) continue;
+        ++met;
+        const auto curve = levels_.back().bezier[3 * knot];
+        EXPECT_TRUE(std::ranges::equal(drawn.bezier[4 * i], curve)) << knot;
+        if (i == 0 && GetParam() == Ends::kOpen) continue;
+        const std::size_t before = (i == 0 ? drawn.names.size() : i) - 1;
+        EXPECT_TRUE(std::ranges::equal(drawn.bezier[4 * before + 3], curve)) << knot;
+    }
+    EXPECT_EQ(met, turns.size());
+    EXPECT_LT(drawn.names.size(), 128U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both,
@@ -151,7 +189,7 @@ TEST(DrawJoinedSegments, KeepTheToleranceWhereAveragingDoesNot) {
     std::ranges::copy(kCounterexample, control.numbers().begin());
     const std::vector<SegmentLevel> levels = levels_of(control, Ends::kOpen);
 
-    DrawnSegments averaged = draw_segments(levels, kTolerance);
+    DrawnSegments averaged = draw_segments(levels, kTolerance, {});
     EXPECT_EQ(averaged.names.size(), 10U);
     EXPECT_LT(sampled_error(control, Ends::kOpen, averaged), kTolerance);
     for (std::size_t i = 0; i + 1 < averaged.names.size(); ++i) {
@@ -163,7 +201,8 @@ TEST(DrawJoinedSegments, KeepTheToleranceWhereAveragingDoesNot) {
                 1.123445651926689 * kTolerance,
                 1e-4);
 
-    const DrawnSegments joined = draw_joined_segments(levels, Ends::kOpen, kTolerance);
+    const DrawnSegments joined =
+        draw_joined_segments(levels, Ends::kOpen, kTolerance, {});
     EXPECT_LT(sampled_error(control, Ends::kOpen, joined), kTolerance);
     EXPECT_GT(joined.names.size(), averaged.names.size());
 }

@@ -34,7 +34,7 @@ TEST(ParametricError, IsTheLimitOfEverDenserSamples) {
         const Points control = drawn_stroke({.level = 6, .noise = 3, .seed = seed});
         const auto levels = error_bounds(decompose(control, Ends::kOpen));
         for (const double tolerance : {3.0, 10.0, 40.0}) {
-            const DrawnSegments drawn = draw_segments(levels, tolerance);
+            const DrawnSegments drawn = draw_segments(levels, tolerance, {});
             const double exact = parametric_error(levels.back().bezier, 6, drawn);
             const double seen = sampled(levels.back().bezier, 6, drawn, 64);
             EXPECT_GE(exact, seen * (1 - 1e-12)) << seed << ' ' << tolerance;
@@ -53,7 +53,8 @@ TEST(ParametricError, FindsAMaximumWithinAPiece) {
 
 TEST(ParametricError, OfTheCurveItselfIsExactlyZero) {
     const auto levels = error_bounds(decompose(drawn_stroke({.level = 5}), Ends::kOpen));
-    EXPECT_EQ(parametric_error(levels.back().bezier, 5, draw_segments(levels, 1e-9)), 0);
+    EXPECT_EQ(parametric_error(levels.back().bezier, 5, draw_segments(levels, 1e-9, {})),
+              0);
 }
 
 TEST(ParametricError, DoesNotLookBeyondXAndY) {
