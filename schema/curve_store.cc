@@ -58,23 +58,52 @@ std::vector<double> numbers_of(std::span<const std::uint8_t> bytes) {
 
 // The table's constraints hold for every row that SQLite wrote; a file may have been through
 // other hands.
+Result<void> check_rows(const std::string& curve,
+                        std::int64_t dimension,
+                        std::int64_t bytes) {
+    constexpr auto kNumber = static_cast<std::int64_t>(kBytes);
+    if (dimension >= 1 && dimension <= 8 && bytes > 0 &&
+        bytes % (kNumber * dimension) == 0)
+        return {};
+    return Error{ErrorCode::kIo,
+                 curve + " has " + std::to_string(bytes) +
+                     " bytes, which are no points of " + std::to_string(dimension) +
+                     " numbers"};
+}
+
 Result<StoredCurve> curve_of(CurveKind kind, const Statement& row) {
     StoredCurve curve;
     curve.name = row.text(0);
     curve.closed = row.integer(1) != 0;
     const std::int64_t dimension = row.integer(2);
     const std::span<const std::uint8_t> bytes = row.bytes(3);
-    if (dimension < 1 || dimension > 8 || bytes.empty() ||
-        bytes.size() % (kBytes * static_cast<std::size_t>(dimension)) != 0)
-        return Error{ErrorCode::kIo,
-                     quoted(kind, curve.name) + " has " + std::to_string(bytes.size()) +
-                         " bytes, which are no points of " + std::to_string(dimension) +
-                         " numbers"};
+    const Result<void> whole = check_rows(
+        quoted(kind, curve.name), dimension, static_cast<std::int64_t>(bytes.size()));
+    if (!whole) return whole.error();
     curve.dimension = static_cast<int>(dimension);
     curve.numbers = numbers_of(bytes);
     curve.updated_at = row.text(4);
     curve.revision = row.integer(5);
     return curve;
+}
+
+Result<ListedCurve> listed_curve_of(CurveKind kind, const Statement& row) {
+    ListedCurve curve;
+    curve.name = row.text(0);
+    curve.closed = row.integer(1) != 0;
+    const std::int64_t dimension = row.integer(2);
+    const std::int64_t bytes = row.integer(3);
+    const Result<void> whole = check_rows(quoted(kind, curve.name), dimension, bytes);
+    if (!whole) return whole.error();
+    curve.dimension = static_cast<int>(dimension);
+    curve.count = bytes / (static_cast<std::int64_t>(kBytes) * dimension);
+    curve.updated_at = row.text(4);
+    return curve;
+}
+
+Error cannot_list(CurveKind kind, Error error) {
+    return while_doing("cannot list the " + std::string(word_of(kind)) + "s",
+                       std::move(error));
 }
 
 }  // namespace
@@ -115,20 +144,37 @@ Result<StoredCurve> CurveStore::get(CurveKind kind, std::string_view name) {
 Result<std::vector<StoredCurve>> CurveStore::list(CurveKind kind) {
     static const std::string sql =
         std::string(kColumns) + " WHERE kind = ?1 ORDER BY name";
-    const auto failed = [&](Error error) {
-        return while_doing("cannot list the " + std::string(word_of(kind)) + "s",
-                           std::move(error));
-    };
     auto statement = cache_.borrow(sql);
-    if (!statement) return failed(std::move(statement).error());
+    if (!statement) return cannot_list(kind, std::move(statement).error());
     (*statement)->bind(1, word_of(kind));
     std::vector<StoredCurve> curves;
     for (;;) {
         const Result<bool> row = (*statement)->step();
-        if (!row) return failed(row.error());
+        if (!row) return cannot_list(kind, row.error());
         if (!*row) return curves;
         Result<StoredCurve> curve = curve_of(kind, **statement);
-        if (!curve) return failed(std::move(curve).error());
+        if (!curve) return cannot_list(kind, std::move(curve).error());
+        curves.push_back(std::move(curve).value());
+    }
+}
+
+Result<std::vector<ListedCurve>> CurveStore::page(CurveKind kind,
+                                                  std::string_view after,
+                                                  int limit) {
+    auto statement = cache_.borrow(
+        "SELECT name, closed, dimension, length(numbers), updated_at FROM curves"
+        " WHERE kind = ?1 AND name > ?2 ORDER BY name LIMIT ?3");
+    if (!statement) return cannot_list(kind, std::move(statement).error());
+    (*statement)->bind(1, word_of(kind));
+    (*statement)->bind(2, after);
+    (*statement)->bind(3, std::int64_t{limit});
+    std::vector<ListedCurve> curves;
+    for (;;) {
+        const Result<bool> row = (*statement)->step();
+        if (!row) return cannot_list(kind, row.error());
+        if (!*row) return curves;
+        Result<ListedCurve> curve = listed_curve_of(kind, **statement);
+        if (!curve) return cannot_list(kind, std::move(curve).error());
         curves.push_back(std::move(curve).value());
     }
 }

@@ -30,6 +30,15 @@ struct StoredCurve {
     std::int64_t revision = 0;  // never used again, not even under another name
 };
 
+// What a list shows of a curve, for which its numbers need not be read.
+struct ListedCurve {
+    std::string name;
+    bool closed = false;
+    int dimension = 0;
+    std::int64_t count = 0;  // of points
+    std::string updated_at;
+};
+
 // Of a kind, to tell whether anything has changed: different after every put and remove.
 struct CurvesVersion {
     std::int64_t last_put = 0;
@@ -47,6 +56,11 @@ class CurveStore {
     [[nodiscard]] Result<StoredCurve> get(CurveKind kind, std::string_view name);
     // All, in the order of names.
     [[nodiscard]] Result<std::vector<StoredCurve>> list(CurveKind kind);
+    // The first `limit` whose names come after `after`, in the order of names; "" is before all.
+    // Requires: limit >= 0.
+    [[nodiscard]] Result<std::vector<ListedCurve>> page(CurveKind kind,
+                                                        std::string_view after,
+                                                        int limit);
     [[nodiscard]] Result<void> remove(CurveKind kind, std::string_view name);
     [[nodiscard]] Result<CurvesVersion> version(CurveKind kind);
 

@@ -92,6 +92,31 @@ Outcome<CorneredRequest> to_cornered(CurveSource source) {
     return fit_pieces(source, *stroke, goal, options);
 }
 
+Outcome<RoundedRequest> to_rounded(CurveSource source) {
+    RoundedRequest made;
+    if (!has_corners(source) || source.kind == CurveSource::Kind::kControl) {
+        // Control points are one curve, whatever corners it has.
+        const bool detect = source.detect_corners;
+        auto asked = to_curve(std::move(source));
+        if (!asked) return asked.problem();
+        made.curve = *std::move(asked);
+        made.curve.corners =
+            detect ? curve::detect_curve_corners(made.curve.control, made.curve.ends, {})
+                   : inner_corners(std::move(made.curve.corners), made.curve.ends);
+        return made;
+    }
+    auto asked = to_cornered(std::move(source));
+    if (!asked) return asked.problem();
+    curve::CurveFit rounded = curve::without_corners(asked->curve, asked->tolerance);
+    made.curve.control = std::move(rounded.control);
+    made.curve.ends = asked->curve.ends;
+    made.curve.level = rounded.level;
+    made.curve.fit = asked->fit;
+    made.curve.corners = std::move(asked->curve.corners);
+    made.rounding_error = rounded.max_error;
+    return made;
+}
+
 void add_cornered(JsonObject& object,
                   const curve::CorneredCurve& curve,
                   const CorneredRequest& asked) {

@@ -32,6 +32,14 @@ struct CorneredRequest {
                                                   const curve::PieceGoal& goal,
                                                   const curve::FitOptions& options);
 
+// One curve without corners, for what is of a whole curve alone: as to_curve(), but where
+// pieces are fitted, these with the corners rounded off within the tolerance.
+struct RoundedRequest {
+    RequestedCurve curve;  // `corners` are those that were found, or said
+    double rounding_error = 0;
+};
+[[nodiscard]] Outcome<RoundedRequest> to_rounded(CurveSource source);
+
 [[nodiscard]] int level_of_piece(const curve::CorneredCurve& curve, std::size_t piece);
 
 // The members "points", "level", "corners", "pieces", "rounding_error" and, where they are

@@ -66,34 +66,40 @@ std::string segments_text(const curve::Points& bezier) {
 struct Approximated {
     curve::Approximation curve;
     std::optional<FitErrors> fit;
+    std::optional<std::vector<double>> corners;  // where asked for
 };
 
-// Pieces of a stroke meet at its corners, where the result may turn as they do.
-Outcome<Approximated> approximated_pieces(CurveSource source, double tolerance) {
+// Pieces meet at corners, where the result may turn as they do.
+Outcome<Approximated> approximated_pieces(CurveSource source,
+                                          double tolerance,
+                                          curve::Joining joining) {
     auto asked = to_cornered(std::move(source));
     if (!asked) return asked.problem();
-    auto found = curve::approximate_chain(
-        curve::concatenate(asked->curve).points, asked->curve.ends, tolerance, {});
+    auto found = curve::approximate_pieces(asked->curve, tolerance, joining);
     if (!found) return impossible(found.error());
-    return Approximated{std::move(found).value(), asked->fit};
+    return Approximated{
+        std::move(found).value(), asked->fit, std::move(asked->curve.corners)};
 }
 
 Outcome<Approximated> approximated(CurveSource source,
                                    double tolerance,
                                    curve::Joining joining) {
+    const bool cornered = has_corners(source);
     const bool is_curve = source.kind == CurveSource::Kind::kControl;
-    if (has_corners(source) && !is_curve && joining == curve::Joining::kG1)
-        return approximated_pieces(std::move(source), tolerance);
-    const bool detect = source.detect_corners && is_curve;
+    if (cornered && !is_curve)
+        return approximated_pieces(std::move(source), tolerance, joining);
+    // Control points need not be taken apart, and a fit of pieces would not be exact.
+    const bool detect = source.detect_corners;
     auto asked = to_curve(std::move(source));
     if (!asked) return asked.problem();
-    const std::vector<double> corners =
-        detect ? curve::detect_curve_corners(asked->control, asked->ends, {})
-               : std::move(asked->corners);
-    auto found =
-        curve::approximate(asked->control, asked->ends, tolerance, joining, corners);
+    if (detect)
+        asked->corners = curve::detect_curve_corners(asked->control, asked->ends, {});
+    auto found = curve::approximate(
+        asked->control, asked->ends, tolerance, joining, asked->corners);
     if (!found) return impossible(found.error());
-    return Approximated{std::move(found).value(), asked->fit};
+    Approximated made{std::move(found).value(), asked->fit, {}};
+    if (cornered) made.corners = std::move(asked->corners);
+    return made;
 }
 
 http::Response json_reply(const Approximated& approximated,
@@ -110,6 +116,7 @@ http::Response json_reply(const Approximated& approximated,
         .number("max_error", found.max_error);
     if (found.closed) reply.boolean("closed", true);
     add_fit(reply, approximated.fit);
+    if (approximated.corners) reply.json("corners", numbers_text(*approximated.corners));
     reply.end();
     return http::json_text_response(200, std::move(text));
 }

@@ -25,7 +25,7 @@ http::Problem inside_character(http::Problem problem) {
     return problem;
 }
 
-// From an object: a curve, or {"coarse", "details"} in the frames of the request.
+// From an object: a curve, whose corners are details of its fine levels, or {"coarse", "details"} in the frames of the request.
 Outcome<curve::LocalDetails> read_object(const json& value, curve::Frame frame) {
     auto members = Inputs::of_object(value);
     if (!members) return inside_character(members.problem());
@@ -40,9 +40,9 @@ Outcome<curve::LocalDetails> read_object(const json& value, curve::Frame frame) 
     auto source = read_curve_source(*members);
     if (!source) return inside_character(source.problem());
     if (const auto problem = members->refused()) return inside_character(*problem);
-    auto given = to_curve(*std::move(source));
+    auto given = to_rounded(*std::move(source));
     if (!given) return inside_character(given.problem());
-    return curve::character_of(given->control, given->ends, frame);
+    return curve::character_of(given->curve.control, given->curve.ends, frame);
 }
 
 Outcome<curve::LocalDetails> read_character(const Context& context,

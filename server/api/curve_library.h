@@ -9,7 +9,7 @@
 
 namespace haarmony::server {
 
-// GET /curve/characters, and GET, PUT, DELETE /curve/characters/{name}
+// GET /curve/characters with ?limit= (1..1000, default 100) and ?cursor=, and GET, PUT, DELETE /curve/characters/{name}
 [[nodiscard]] Reply list_characters(const Context& context, const http::Request& request);
 [[nodiscard]] Reply get_character(const Context& context, const http::Request& request);
 [[nodiscard]] Reply put_character(const Context& context, const http::Request& request);
@@ -17,7 +17,8 @@ namespace haarmony::server {
                                      const http::Request& request);
 // POST /curve/match
 [[nodiscard]] Reply post_match(const Context& context, const http::Request& request);
-// GET, PUT, DELETE /curve/strokes/{name}
+// GET /curve/strokes likewise, and GET, PUT, DELETE /curve/strokes/{name}
+[[nodiscard]] Reply list_strokes(const Context& context, const http::Request& request);
 [[nodiscard]] Reply get_stroke(const Context& context, const http::Request& request);
 [[nodiscard]] Reply put_stroke(const Context& context, const http::Request& request);
 [[nodiscard]] Reply delete_stroke(const Context& context, const http::Request& request);

@@ -162,6 +162,7 @@ constexpr std::array kRoutes{
           false,
           delete_character},
     Route{"POST", "/curve/match", Cost::kCostly, Body::kPicture, false, post_match},
+    Route{"GET", "/curve/strokes", Cost::kCheap, Body::kNone, false, list_strokes},
     Route{"GET", "/curve/strokes/{name}", Cost::kCheap, Body::kNone, false, get_stroke},
     Route{"PUT",
           "/curve/strokes/{name}",

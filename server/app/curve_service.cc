@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "engine/curve/built_in_character.h"
@@ -39,6 +41,30 @@ NamedCurve built_in(const curve::BuiltInCharacter& character) {
     return named;
 }
 
+ListedCurve listed(const curve::BuiltInCharacter& character) {
+    const curve::Points points = character.stroke();
+    return {std::string(character.name),
+            true,
+            curve::Ends::kOpen,
+            points.dimension(),
+            points.size(),
+            {}};
+}
+
+// A row that was written by other hands than put()'s.
+Result<void> check_count(CurveKind kind,
+                         const std::string& name,
+                         std::size_t count,
+                         curve::Ends ends) {
+    if (kind == CurveKind::kStroke && count < 2)
+        return Error{ErrorCode::kIo, "stroke \"" + name + "\" has one sample"};
+    if (kind == CurveKind::kCharacter && !curve::level_of(count, ends))
+        return Error{ErrorCode::kIo,
+                     "character \"" + name + "\" has " + std::to_string(count) +
+                         " control points, as no level has"};
+    return {};
+}
+
 Result<NamedCurve> named(CurveKind kind, const schema::StoredCurve& stored) {
     NamedCurve curve;
     curve.name = stored.name;
@@ -48,14 +74,9 @@ Result<NamedCurve> named(CurveKind kind, const schema::StoredCurve& stored) {
     std::ranges::copy(stored.numbers, curve.points.numbers().begin());
     curve.updated_at = stored.updated_at;
     curve.revision = stored.revision;
-    if (kind == CurveKind::kStroke && curve.points.size() < 2)
-        return Error{ErrorCode::kIo, "stroke \"" + curve.name + "\" has one sample"};
-    if (kind == CurveKind::kCharacter &&
-        !curve::level_of(curve.points.size(), curve.ends))
-        return Error{ErrorCode::kIo,
-                     "character \"" + curve.name + "\" has " +
-                         std::to_string(curve.points.size()) +
-                         " control points, as no level has"};
+    const Result<void> possible =
+        check_count(kind, curve.name, curve.points.size(), curve.ends);
+    if (!possible) return possible.error();
     return curve;
 }
 
@@ -115,20 +136,53 @@ Result<void> CurveService::remove(CurveKind kind, std::string_view name) {
     return logged(writer_->curves().remove(kind, name));
 }
 
-Result<std::vector<NamedCurve>> CurveService::characters() {
+Result<CurvePage> CurveService::stored_page(CurveKind kind,
+                                            std::string_view after,
+                                            int limit) {
     auto connection = readers_.lend();
-    if (!connection) return logged(Result<std::vector<NamedCurve>>(connection.error()));
-    const auto stored = (*connection)->curves().list(CurveKind::kCharacter);
-    if (!stored) return logged(Result<std::vector<NamedCurve>>(stored.error()));
-    std::vector<NamedCurve> all;
-    for (const curve::BuiltInCharacter& character : curve::built_in_characters())
-        all.push_back(built_in(character));
-    for (const schema::StoredCurve& one : stored.value()) {
-        auto curve = named(CurveKind::kCharacter, one);
-        if (!curve) return logged(Result<std::vector<NamedCurve>>(curve.error()));
-        all.push_back(std::move(curve).value());
+    if (!connection) return logged(Result<CurvePage>(connection.error()));
+    // One more than asked for tells whether there is a next page.
+    const auto stored = (*connection)->curves().page(kind, after, limit + 1);
+    if (!stored) return logged(Result<CurvePage>(stored.error()));
+    CurvePage page;
+    for (const schema::ListedCurve& one : stored.value()) {
+        page.more = page.items.size() == static_cast<std::size_t>(limit);
+        if (page.more) break;
+        ListedCurve& listed = page.items.emplace_back();
+        listed.name = one.name;
+        listed.ends = one.closed ? curve::Ends::kClosed : curve::Ends::kOpen;
+        listed.dimension = one.dimension;
+        listed.count = static_cast<std::size_t>(one.count);
+        listed.updated_at = one.updated_at;
+        const Result<void> possible =
+            check_count(kind, listed.name, listed.count, listed.ends);
+        if (!possible) return logged(Result<CurvePage>(possible.error()));
     }
-    return all;
+    return page;
+}
+
+Result<CurvePage> CurveService::characters(std::string_view after, int limit) {
+    const std::span<const curve::BuiltInCharacter> built_in =
+        curve::built_in_characters();
+    auto next = built_in.begin();
+    std::string_view stored_after;
+    if (!after.empty()) {
+        next = std::ranges::find_if(
+            built_in, [&](const auto& character) { return character.name == after; });
+        if (next == built_in.end())
+            stored_after = after;
+        else
+            ++next;
+    }
+    CurvePage page;
+    for (; next != built_in.end() && std::ssize(page.items) < limit; ++next)
+        page.items.push_back(listed(*next));
+    auto stored = stored_page(
+        CurveKind::kCharacter, stored_after, limit - static_cast<int>(page.items.size()));
+    if (!stored) return stored;
+    std::ranges::move(stored->items, std::back_inserter(page.items));
+    page.more = next != built_in.end() || stored->more;
+    return page;
 }
 
 Result<NamedCurve> CurveService::character(std::string_view name) {
@@ -146,6 +200,10 @@ Result<PutCurve> CurveService::put_character(const NamedCurve& character) {
 Result<void> CurveService::remove_character(std::string_view name) {
     if (curve::built_in_character(name) != nullptr) return built_in_error(name);
     return remove(CurveKind::kCharacter, name);
+}
+
+Result<CurvePage> CurveService::strokes(std::string_view after, int limit) {
+    return stored_page(CurveKind::kStroke, after, limit);
 }
 
 Result<NamedCurve> CurveService::stroke(std::string_view name) {

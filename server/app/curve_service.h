@@ -32,6 +32,21 @@ struct NamedCurve {
     std::int64_t revision = 0;
 };
 
+// What a list shows of one.
+struct ListedCurve {
+    std::string name;
+    bool built_in = false;
+    curve::Ends ends = curve::Ends::kOpen;
+    int dimension = 0;
+    std::size_t count = 0;  // of points
+    std::string updated_at;
+};
+
+struct CurvePage {
+    std::vector<ListedCurve> items;
+    bool more = false;  // behind the last one
+};
+
 struct PutCurve {
     NamedCurve curve;
     bool created = false;  // nothing had that name
@@ -48,13 +63,15 @@ class CurveService {
     [[nodiscard]] static Result<std::unique_ptr<CurveService>> open(
         const std::string& database_path);
 
-    // The built-in ones first, then in the order of names.
-    [[nodiscard]] Result<std::vector<NamedCurve>> characters();
+    // Those behind the name `after`, "" for the first ones: the built-in ones first, then in
+    // the order of names. Requires: 1 <= limit.
+    [[nodiscard]] Result<CurvePage> characters(std::string_view after, int limit);
     [[nodiscard]] Result<NamedCurve> character(std::string_view name);
     // Inserts or replaces. Requires: control points of a level.
     [[nodiscard]] Result<PutCurve> put_character(const NamedCurve& character);
     [[nodiscard]] Result<void> remove_character(std::string_view name);
 
+    [[nodiscard]] Result<CurvePage> strokes(std::string_view after, int limit);
     [[nodiscard]] Result<NamedCurve> stroke(std::string_view name);
     [[nodiscard]] Result<PutCurve> put_stroke(const NamedCurve& stroke);
     [[nodiscard]] Result<void> remove_stroke(std::string_view name);
@@ -66,6 +83,9 @@ class CurveService {
     CurveService(const std::string& database_path, std::unique_ptr<Connection> writer);
 
     [[nodiscard]] Result<NamedCurve> get(schema::CurveKind kind, std::string_view name);
+    [[nodiscard]] Result<CurvePage> stored_page(schema::CurveKind kind,
+                                                std::string_view after,
+                                                int limit);
     [[nodiscard]] Result<PutCurve> put(schema::CurveKind kind, const NamedCurve& curve);
     [[nodiscard]] Result<void> remove(schema::CurveKind kind, std::string_view name);
 

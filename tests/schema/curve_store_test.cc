@@ -94,6 +94,34 @@ TEST_F(Curves, AreListedByName) {
     EXPECT_THAT(names, ElementsAre("a-1", "b", "c_"));
 }
 
+TEST_F(Curves, ArePagedByName) {
+    for (const std::string& name : std::vector<std::string>{"b", "a-1", "c_", "a"})
+        expect(store_.put(CurveKind::kStroke, curve(name)));
+    StoredCurve other = curve("aa");
+    other.closed = true;
+    other.dimension = 4;
+    expect(store_.put(CurveKind::kCharacter, other));
+    const auto names = [&](std::string_view after, int limit) {
+        std::vector<std::string> found;
+        for (const ListedCurve& one :
+             expect(store_.page(CurveKind::kStroke, after, limit)))
+            found.push_back(one.name);
+        return found;
+    };
+    EXPECT_THAT(names("", 3), ElementsAre("a", "a-1", "b"));
+    EXPECT_THAT(names("b", 3), ElementsAre("c_"));
+    EXPECT_THAT(names("aa", 1), ElementsAre("b"));
+    EXPECT_THAT(names("c_", 1), IsEmpty());
+    EXPECT_THAT(names("", 0), IsEmpty());
+    const ListedCurve found = expect(store_.page(CurveKind::kCharacter, "", 9)).front();
+    EXPECT_EQ(found.name, "aa");
+    EXPECT_TRUE(found.closed);
+    EXPECT_EQ(found.dimension, 4);
+    EXPECT_EQ(found.count, 1);
+    EXPECT_EQ(found.updated_at,
+              expect(store_.get(CurveKind::kCharacter, "aa")).updated_at);
+}
+
 TEST_F(Curves, VersionChangesWithEveryPutAndRemoveOfTheKind) {
     std::vector<CurvesVersion> versions;
     const auto note = [&] {
@@ -159,6 +187,7 @@ TEST_F(Curves, ADamagedRowIsAnErrorThatNamesIt) {
         expect(store_.put(CurveKind::kStroke, curve("bad")));
         spoil(damage);
         for (const Error& error : {store_.get(CurveKind::kStroke, "bad").error(),
+                                   store_.page(CurveKind::kStroke, "", 1).error(),
                                    store_.list(CurveKind::kStroke).error()}) {
             EXPECT_EQ(error.code, ErrorCode::kIo) << damage;
             EXPECT_THAT(error.message, HasSubstr("stroke \"bad\"")) << damage;
@@ -171,6 +200,7 @@ TEST_F(Curves, ALostTableIsAnErrorOfEveryMember) {
     EXPECT_EQ(store_.put(CurveKind::kStroke, curve("a")).error().code, ErrorCode::kIo);
     EXPECT_EQ(store_.get(CurveKind::kStroke, "a").error().code, ErrorCode::kIo);
     EXPECT_EQ(store_.list(CurveKind::kStroke).error().code, ErrorCode::kIo);
+    EXPECT_EQ(store_.page(CurveKind::kStroke, "", 1).error().code, ErrorCode::kIo);
     EXPECT_EQ(store_.remove(CurveKind::kStroke, "a").error().code, ErrorCode::kIo);
     EXPECT_EQ(store_.version(CurveKind::kStroke).error().code, ErrorCode::kIo);
 }

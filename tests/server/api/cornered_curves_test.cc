@@ -143,16 +143,38 @@ TEST_F(CorneredCurvesTest, PiecesTakeACharacter) {
 }
 
 TEST_F(CorneredCurvesTest, AnApproximationMayTurnAtTheTip) {
-    const json found = ask("approximate", with(stroke_, {{"tolerance", 2}}));
-    double least = 1e9;
-    for (const json& segment : found["segments"])
-        least = std::min(least, difference(segment[0], {0, 100}));
-    EXPECT_LT(least, 2);
-    EXPECT_LE(found["max_error"], found["bound"]);
-    EXPECT_LE(found["bound"], 2);
-    const json detected =
-        ask("approximate", with(curve_, {{"tolerance", 2}, {"corners", "detect"}}));
-    EXPECT_LE(detected["bound"], 2);
+    const auto nearest_start = [](const json& segments, const json& place) {
+        double least = 1e9;
+        for (const json& segment : segments)
+            least = std::min(least, difference(segment[0], place));
+        return least;
+    };
+    for (const std::string mode : {"dyadic", "c0", "g1"}) {
+        const json wanted{{"tolerance", 2}, {"mode", mode}};
+        const json found = ask("approximate", with(stroke_, wanted));
+        // In dyadic mode segments need not meet, nor go through any point.
+        EXPECT_LT(nearest_start(found["segments"], {0, 100}), mode == "dyadic" ? 2 : 1e-9)
+            << mode;
+        EXPECT_LE(found["max_error"], found["bound"]) << mode;
+        EXPECT_LE(found["bound"], 2) << mode;
+        EXPECT_EQ(found["corners"].size(), 1u) << mode;
+        json round = stroke_;
+        round.erase("corners");
+        EXPECT_FALSE(ask("approximate", with(round, wanted)).contains("corners"));
+
+        const json declared = ask("approximate", with(curve_, wanted));
+        const json tip = ask("evaluate", with(curve_, {{"u", {0.5}}}))["points"][0];
+        EXPECT_LT(nearest_start(declared["segments"], tip), mode == "dyadic" ? 2 : 1e-9)
+            << mode;
+        EXPECT_EQ(declared["corners"], (json{0.5})) << mode;
+        EXPECT_FALSE(declared.contains("fit")) << mode;
+
+        const json detected =
+            ask("approximate",
+                with(curve_, {{"tolerance", 2}, {"mode", mode}, {"corners", "detect"}}));
+        EXPECT_LE(detected["bound"], 2) << mode;
+        EXPECT_FALSE(detected["corners"].empty()) << mode;
+    }
 }
 
 TEST_F(CorneredCurvesTest, AClosedCurveHasACornerAtItsStart) {

@@ -283,8 +283,13 @@ TEST(Openapi, CurvesAndSurfacesAreAsDescribed) {
                     {"point", {{"near", {5, 5}}, {"delta", {1, 2}}}}}));
         check("POST", "/curve/fit", 200, with(source, {{"pin_ends", false}}));
         check("POST", "/curve/approximate", 200, with(source, {{"tolerance", 9}}));
+        check("POST",
+              "/curve/approximate",
+              200,
+              with(source, {{"tolerance", 9}, {"mode", "c0"}, {"corners", "detect"}}));
         check("POST", "/curve/evaluate", 200, with(source, {{"count", 3}}));
-        check("POST", "/curve/match", 200, with(source, {{"limit", 3}}));
+        const int answered = source.contains("corners") ? 422 : 200;
+        check("POST", "/curve/match", answered, with(source, {{"limit", 3}}));
         const json taken{{"coarse", apart["coarse"]},
                          {"details", apart["details"]},
                          {"closed", apart.value("closed", false)}};
@@ -303,6 +308,7 @@ TEST(Openapi, CurvesAndSurfacesAreAsDescribed) {
     check("PUT", characters, 201, stroke, "a");
     check("PUT", characters, 200, curve, "a");
     check("PUT", characters, 409, curve, built_in);
+    check("PUT", characters, 200, with(stroke, {{"corners", "detect"}}), "a");
     check("GET", characters, 200, json(), "a");
     check("GET", characters, 200, json(), built_in);
     check("GET", "/curve/characters", 200, json());
@@ -310,9 +316,12 @@ TEST(Openapi, CurvesAndSurfacesAreAsDescribed) {
     check("DELETE", characters, 404, json(), "a");
     check("DELETE", characters, 409, json(), built_in);
     const std::string strokes = "/curve/strokes/{name}";
-    check("PUT", strokes, 201, stroke, "s");
+    const json drawn{{"samples", stroke["samples"]}};
+    check("PUT", strokes, 201, drawn, "s");
     check("GET", strokes, 200, json(), "s");
-    EXPECT_EQ(check("POST", "/curve/match", 200, stroke)["items"].size(), 1u);
+    EXPECT_EQ(check("GET", "/curve/strokes", 200, json())["items"].size(), 1u);
+    check("PUT", strokes, 422, stroke, "s");
+    EXPECT_EQ(check("POST", "/curve/match", 200, drawn)["items"].size(), 1u);
     check("DELETE", strokes, 204, json(), "s");
     check("GET", strokes, 404, json(), "s");
 
