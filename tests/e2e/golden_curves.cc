@@ -92,7 +92,7 @@ void GoldenCurves::begin(const std::string& name) {
 void GoldenCurves::equal(const json& got, const json& want, const std::string& what) {
     const double error = relative_error(got, want);
     error_ = std::max(error_, error);
-    holds(error <= kGoldenTolerance, what + " to " + json(error).dump());
+    if (!(error <= kGoldenTolerance)) complain(what + " is off by " + json(error).dump());
 }
 
 void GoldenCurves::holds(bool condition, const std::string& what) {
