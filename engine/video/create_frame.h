@@ -4,7 +4,8 @@
 // Shape    pixels row-major straight RGBA; a leaf (level, x, y) fills square (x, y) of the
 //          2^level x 2^level squares that the root square is divided into.
 // Errors   kInvalidArgument names the leaf that lies outside, overlaps another, or is deeper
-//          than the root square allows.
+//          than the root square allows; the tree is then what it was. A leaf across the edge
+//          of the picture is cut there.
 // Source   sec. 5.3.1, Figure 5.6, CreateFrame(); "sample source material at different levels
 //          of detail in different parts of a frame".
 #pragma once

@@ -2,6 +2,7 @@
 // rounded once.
 //   image_tree.h -> [exact_mean.h] -> build.h
 //
+// Bounds   the box of finest pixels whose mean, padding counted, is not clear after rounding.
 // Errors   none; a wrong shape is a caller's bug and asserts.
 // Cost     linear in the detail of what is added, and of what is asked.
 // Source   sec. 5.3.1, AverageChildren(); ERRATA of the project, video 14 to 17.
