@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstddef>
 
+#include "engine/video/sum_kernel.h"
 #include "engine/video/sum_tree.h"
 
 namespace haarmony::video {
@@ -15,26 +17,33 @@ constexpr std::size_t kHalf = kBrickSide / 2;
 constexpr auto kPad = static_cast<std::size_t>(Edge::kPad);
 constexpr auto kNormalize = static_cast<std::size_t>(Edge::kNormalize);
 
+std::uint32_t word_of(Rgba pixel) { return std::bit_cast<std::uint32_t>(pixel); }
+
 // Where quadrant q of a brick begins.
 constexpr std::size_t corner_of(std::size_t q) {
     return (q >> 1) * kHalf * kSide + (q & 1) * kHalf;
 }
 
-// The sum of the 2 x 2 pixels at (2 x, 2 y) of a square with rows of `side`.
-PixelSum sum_of_four(const PixelSum* sums,
-                     std::size_t side,
-                     std::size_t x,
-                     std::size_t y) {
-    const PixelSum* const upper = sums + 2 * y * side + 2 * x;
-    PixelSum sum = upper[0];
+using Sums = std::array<PixelSum, kBrickPixels>;
+
+// The sum of the 2 x 2 sums at (2 x, 2 y) of a square with rows of `side`.
+template <typename Sum>
+Sum sum_of_four(const Sum* sums, std::size_t side, std::size_t x, std::size_t y) {
+    const Sum* const upper = sums + 2 * y * side + 2 * x;
+    Sum sum = upper[0];
     sum += upper[1];
     sum += upper[side];
     sum += upper[side + 1];
     return sum;
 }
 
+// Position i of a quadrant, in the brick.
+constexpr std::size_t in_quadrant(std::size_t corner, std::size_t i) {
+    return corner + i / kHalf * kSide + i % kHalf;
+}
+
 struct EdgeNode {
-    Brick brick;
+    PixelWords words;
     std::array<std::uint32_t, 4> child;
 
     [[nodiscard]] bool has_child() const {
@@ -43,22 +52,32 @@ struct EdgeNode {
         });
     }
     // Whether it shows more than a quadrant of the brick above.
-    [[nodiscard]] bool is_finer_than(const Brick& above, std::size_t quadrant) const {
+    [[nodiscard]] bool is_finer_than(const PixelWords& above,
+                                     std::size_t quadrant) const {
         if (has_child()) return true;
-        const Rgba* const corner = &above[corner_of(quadrant)];
-        for (std::size_t i = 0; i < brick.size(); ++i) {
-            if (brick[i] != corner[i / kSide / 2 * kSide + i % kSide / 2]) return true;
+        const std::uint32_t* const corner = &above[corner_of(quadrant)];
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            if (words[i] != corner[i / kSide / 2 * kSide + i % kSide / 2]) return true;
         }
         return false;
     }
     friend bool operator==(const EdgeNode&, const EdgeNode&) = default;
 };
 
-// A square averaged, before it is known whether it becomes a node.
+// A square averaged, before it is known whether it becomes a node. Its sums are over all of
+// the finest pixels in each, and stand in one of three places; none is cleared before.
 struct Averaged {
-    SumBrick sums;  // over space and time
+    [[nodiscard]] PixelSum sum(std::size_t i, std::uint64_t samples) const {
+        return wide ? sum_at(wide_sums, i) : sum_at(*narrow_sums, opaque, samples, i);
+    }
+
+    const SumPlanes* narrow_sums;  // the sum tree's, or own_sums; where not wide
+    SumPlanes own_sums;
+    WidePlanes wide_sums;
+    bool wide;
+    bool opaque;  // of narrow sums
+    bool same;    // both edges show the same; then only kPad's is there
     std::array<EdgeNode, kEdges> edge;
-    bool same = true;  // both edges; then only kPad's is there
 };
 
 class Averager {
@@ -80,7 +99,7 @@ class Averager {
         average(sums_.root(), kBrickLevel, 0, 0, root);
         out_.root[kPad] = emit(root.edge[kPad]);
         out_.root[kNormalize] = root.same ? out_.root[kPad] : emit(root.edge[kNormalize]);
-        average_apex(root.sums);
+        average_apex(root);
         out_.bounds = in_pixels();
     }
 
@@ -103,10 +122,12 @@ class Averager {
     [[nodiscard]] std::uint64_t frames() const {
         return static_cast<std::uint64_t>(sums_.frames());
     }
-    // The mean of pixel (x, y) of a level.
-    [[nodiscard]] Rgba padded(const PixelSum& sum, int level) const {
-        return mean(sum, frames() << 2 * (finest_ - level));
+    // How many finest pixels a pixel of a level is, and of how many frames.
+    [[nodiscard]] int log2_area(int level) const { return 2 * (finest_ - level); }
+    [[nodiscard]] std::uint64_t samples_at(int level) const {
+        return frames() << log2_area(level);
     }
+    // The mean of pixel (x, y) of a level.
     [[nodiscard]] Rgba normalized(const PixelSum& sum,
                                   int level,
                                   std::int64_t x,
@@ -125,52 +146,137 @@ class Averager {
         const TreeNode& node = sums_.node(at);
         std::array<Averaged, 4> below;
         for (std::size_t q = 0; q < 4; ++q) {
-            const std::size_t corner = corner_of(q);
-            if (node.child[q] == kNoDetail) {
-                widen(sums_.brick(node.brick), corner, level, out.sums);
-                continue;
-            }
+            if (node.child[q] == kNoDetail) continue;
             average(node.child[q],
                     level + 1,
                     2 * x + static_cast<std::int64_t>(q & 1),
                     2 * y + static_cast<std::int64_t>(q >> 1),
                     below[q]);
-            for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-                out.sums[corner + i / kHalf * kSide + i % kHalf] =
-                    sum_of_four(below[q].sums.data(), kSide, i % kHalf, i / kHalf);
-            }
         }
+        add_up(node, level, below, out);
         average_brick(level, x, y, out);
-        extend_bounds(node, level, x, y, out.edge[kPad].brick);
+        extend_bounds(node, level, x, y, out);
         keep_finer(node, below, out);
     }
 
-    // Sums over time alone become sums over all finest pixels.
-    void widen(const SumBrick& sums, std::size_t corner, int level, SumBrick& out) const {
-        const int below = 2 * (finest_ - level);
-        for (std::size_t y = 0; y < kHalf; ++y) {
-            for (std::size_t x = 0; x < kHalf; ++x) {
-                const PixelSum& sum = sums[corner + y * kSide + x];
-                out[corner + y * kSide + x] = {
-                    sum.r << below, sum.g << below, sum.b << below, sum.a << below};
+    // The sums of a square from those of its quadrants.
+    void add_up(const TreeNode& node,
+                int level,
+                const std::array<Averaged, 4>& below,
+                Averaged& out) const {
+        const std::uint64_t samples = samples_at(level);
+        out.opaque = samples <= kMostOpaqueSamples;
+        for (std::size_t q = 0; q < 4 && out.opaque; ++q) {
+            out.opaque = node.child[q] == kNoDetail
+                             ? !sums_.wide() && sums_.narrow_brick(node.brick).opaque
+                             : !below[q].wide && below[q].opaque;
+        }
+        out.wide = !out.opaque && samples > kMostSamples;
+        if (out.wide) {
+            for (std::size_t q = 0; q < 4; ++q)
+                add_up_wide(node, q, level, below[q], out);
+            return;
+        }
+        if (level == finest_) {
+            out.narrow_sums = &sums_.narrow_brick(node.brick).planes;
+            return;
+        }
+        out.narrow_sums = &out.own_sums;
+        for (std::size_t q = 0; q < 4; ++q) add_up_narrow(node, q, level, below[q], out);
+    }
+
+    void add_up_narrow(const TreeNode& node,
+                       std::size_t q,
+                       int level,
+                       const Averaged& below,
+                       Averaged& out) const {
+        const std::size_t corner = corner_of(q);
+        bool opaque = false;
+        if (node.child[q] != kNoDetail) {
+            opaque = below.opaque;
+            halve(*below.narrow_sums, opaque ? 3 : 4, corner, out.own_sums);
+        } else {
+            const NarrowSums& brick = sums_.narrow_brick(node.brick);
+            opaque = brick.opaque;
+            for (std::size_t plane = 0; plane < (opaque ? 3U : 4U); ++plane) {
+                for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
+                    const std::size_t to = in_quadrant(corner, i);
+                    out.own_sums[plane][to] = brick.planes[plane][to] << log2_area(level);
+                }
             }
+        }
+        if (!opaque || out.opaque) return;
+        const auto alpha = static_cast<std::uint32_t>(255 * samples_at(level));
+        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
+            const std::size_t to = in_quadrant(corner, i);
+            for (std::size_t plane = 0; plane < 3; ++plane)
+                out.own_sums[plane][to] *= 255;
+            out.own_sums[3][to] = alpha;
         }
     }
 
+    void add_up_wide(const TreeNode& node,
+                     std::size_t q,
+                     int level,
+                     const Averaged& below,
+                     Averaged& out) const {
+        const std::size_t corner = corner_of(q);
+        Sums finer;
+        if (node.child[q] != kNoDetail) {
+            const std::uint64_t samples = samples_at(level + 1);
+            for (std::size_t i = 0; i < kBrickPixels; ++i)
+                finer[i] = below.sum(i, samples);
+        }
+        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
+            const std::size_t to = in_quadrant(corner, i);
+            PixelSum sum;
+            if (node.child[q] != kNoDetail) {
+                sum = sum_of_four(finer.data(), kSide, i % kHalf, i / kHalf);
+            } else {
+                sum = scaled(sums_.wide() ? sum_at(sums_.wide_brick(node.brick), to)
+                                          : narrow_sum(node.brick, to),
+                             log2_area(level));
+            }
+            out.wide_sums[0][to] = sum.r;
+            out.wide_sums[1][to] = sum.g;
+            out.wide_sums[2][to] = sum.b;
+            out.wide_sums[3][to] = sum.a;
+        }
+    }
+
+    [[nodiscard]] PixelSum narrow_sum(std::uint32_t brick, std::size_t i) const {
+        const NarrowSums& sums = sums_.narrow_brick(brick);
+        return sum_at(sums.planes, sums.opaque, frames(), i);
+    }
+    static PixelSum scaled(const PixelSum& sum, int log2) {
+        return {sum.r << log2, sum.g << log2, sum.b << log2, sum.a << log2};
+    }
+
     void average_brick(int level, std::int64_t x, std::int64_t y, Averaged& out) const {
+        const std::uint64_t samples = samples_at(level);
+        PixelWords& words = out.edge[kPad].words;
+        if (out.wide) {
+            for (std::size_t i = 0; i < kBrickPixels; ++i) {
+                words[i] = word_of(mean(sum_at(out.wide_sums, i), samples));
+            }
+        } else {
+            (out.opaque ? mean_of_opaque : mean_of)(
+                *out.narrow_sums, static_cast<std::uint32_t>(samples), words);
+        }
         const Box box = square(level - kBrickLevel, x, y);
-        const bool crossed =
-            samples_inside(box) > 0 && (box.right > width_ || box.bottom > height_);
+        out.same = box.right <= width_ && box.bottom <= height_;
+        // Each of the finest pixels lies inside or outside as a whole.
+        if (out.same || level == finest_ || samples_inside(box) == 0) {
+            out.same = true;
+            return;
+        }
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            out.edge[kPad].brick[i] = padded(out.sums[i], level);
-            if (!crossed) continue;
-            out.edge[kNormalize].brick[i] =
-                normalized(out.sums[i],
+            out.edge[kNormalize].words[i] = word_of(
+                normalized(out.sum(i, samples),
                            level,
                            x * kBrickSide + static_cast<std::int64_t>(i % kSide),
-                           y * kBrickSide + static_cast<std::int64_t>(i / kSide));
+                           y * kBrickSide + static_cast<std::int64_t>(i / kSide)));
         }
-        out.same = !crossed;
     }
 
     // Of the squares below, those become nodes that show more than this one.
@@ -184,14 +290,14 @@ class Averager {
             normalize.child[q] = kNoDetail;
             if (node.child[q] == kNoDetail) continue;
             const EdgeNode& finer = below[q].edge[kPad];
-            if (finer.is_finer_than(pad.brick, q)) pad.child[q] = emit(finer);
+            if (finer.is_finer_than(pad.words, q)) pad.child[q] = emit(finer);
             if (out.same) continue;
             if (!below[q].same) {
                 const EdgeNode& other = below[q].edge[kNormalize];
-                if (other.is_finer_than(normalize.brick, q)) {
+                if (other.is_finer_than(normalize.words, q)) {
                     normalize.child[q] = emit(other);
                 }
-            } else if (finer.is_finer_than(normalize.brick, q)) {
+            } else if (finer.is_finer_than(normalize.words, q)) {
                 normalize.child[q] =
                     pad.child[q] == kNoDetail ? emit(finer) : pad.child[q];
             }
@@ -200,21 +306,24 @@ class Averager {
     }
 
     std::uint32_t emit(const EdgeNode& node) {
-        out_.bricks.push_back(node.brick);
+        out_.bricks.push_back(std::bit_cast<Brick>(node.words));
         out_.nodes.push_back({.brick = static_cast<std::uint32_t>(out_.bricks.size() - 1),
                               .child = node.child});
         return static_cast<std::uint32_t>(out_.nodes.size() - 1);
     }
 
-    void average_apex(const SumBrick& root) {
-        SumBrick sums = root;
+    void average_apex(const Averaged& root) {
+        Sums sums;
+        for (std::size_t i = 0; i < kBrickPixels; ++i) {
+            sums[i] = root.sum(i, samples_at(kBrickLevel));
+        }
         for (int level = kBrickLevel - 1; level >= 0; --level) {
             const std::size_t side = std::size_t{1} << level;
             for (std::size_t i = 0; i < side * side; ++i) {
                 // Rows shrink in place: never ahead of the reading.
                 sums[i] = sum_of_four(sums.data(), 2 * side, i % side, i / side);
                 const std::size_t at = static_cast<std::size_t>(apex_offset(level)) + i;
-                out_.apex[kPad][at] = padded(sums[i], level);
+                out_.apex[kPad][at] = mean(sums[i], samples_at(level));
                 out_.apex[kNormalize][at] =
                     normalized(sums[i],
                                level,
@@ -229,7 +338,13 @@ class Averager {
                        int level,
                        std::int64_t x,
                        std::int64_t y,
-                       const Brick& brick) {
+                       const Averaged& averaged) {
+        const Box box = square(level - kBrickLevel, x, y);
+        if (bounds_.left <= box.left && bounds_.top <= box.top &&
+            bounds_.right >= box.right && bounds_.bottom >= box.bottom) {
+            return;
+        }
+        const auto brick = std::bit_cast<Brick>(averaged.edge[kPad].words);
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
             const std::size_t column = i % kSide, row = i / kSide;
             if (node.child[column / kHalf + row / kHalf * 2] != kNoDetail) continue;
