@@ -65,18 +65,22 @@ struct EdgeNode {
 };
 
 // A square averaged, before it is known whether it becomes a node. Its sums are over all of
-// the finest pixels in each, and stand in one of three places; none is cleared before.
+// the finest pixels in each; what is not used is not cleared either.
 struct Averaged {
     [[nodiscard]] PixelSum sum(std::size_t i, std::uint64_t samples) const {
-        return wide ? sum_at(wide_sums, i) : sum_at(*narrow_sums, opaque, samples, i);
+        if (is_wide) return sum_at(wide, samples, i);
+        if (!is_opaque) return sum_at(narrow, samples, i);
+        const auto weighed = [this, i](std::size_t plane) {
+            return std::uint64_t{255} * narrow[plane][i];
+        };
+        return {weighed(0), weighed(1), weighed(2), 255 * samples};
     }
 
-    const SumPlanes* narrow_sums;  // the sum tree's, or own_sums; where not wide
-    SumPlanes own_sums;
-    WidePlanes wide_sums;
-    bool wide;
-    bool opaque;  // of narrow sums
-    bool same;    // both edges show the same; then only kPad's is there
+    bool is_wide;
+    bool is_opaque;  // narrow sums are those of colour alone, without plane a
+    bool is_same;    // both edges show the same; then only kPad's is there
+    NarrowSums narrow;
+    WideSums wide;
     std::array<EdgeNode, kEdges> edge;
 };
 
@@ -98,7 +102,8 @@ class Averager {
         Averaged root;
         average(sums_.root(), kBrickLevel, 0, 0, root);
         out_.root[kPad] = emit(root.edge[kPad]);
-        out_.root[kNormalize] = root.same ? out_.root[kPad] : emit(root.edge[kNormalize]);
+        out_.root[kNormalize] =
+            root.is_same ? out_.root[kPad] : emit(root.edge[kNormalize]);
         average_apex(root);
         out_.bounds = in_pixels();
     }
@@ -143,7 +148,7 @@ class Averager {
                  std::int64_t x,
                  std::int64_t y,
                  Averaged& out) {
-        const TreeNode& node = sums_.node(at);
+        const SumNode& node = sums_.node(at);
         std::array<Averaged, 4> below;
         for (std::size_t q = 0; q < 4; ++q) {
             if (node.child[q] == kNoDetail) continue;
@@ -160,114 +165,126 @@ class Averager {
     }
 
     // The sums of a square from those of its quadrants.
-    void add_up(const TreeNode& node,
+    void add_up(const SumNode& node,
                 int level,
                 const std::array<Averaged, 4>& below,
                 Averaged& out) const {
         const std::uint64_t samples = samples_at(level);
-        out.opaque = samples <= kMostOpaqueSamples;
-        for (std::size_t q = 0; q < 4 && out.opaque; ++q) {
-            out.opaque = node.child[q] == kNoDetail
-                             ? !sums_.wide() && sums_.narrow_brick(node.brick).opaque
-                             : !below[q].wide && below[q].opaque;
+        out.is_opaque = samples <= kMostOpaqueSamples;
+        for (std::size_t q = 0; q < 4 && out.is_opaque; ++q) {
+            out.is_opaque = node.child[q] == kNoDetail ? node.width == SumWidth::kShort
+                                                       : below[q].is_opaque;
         }
-        out.wide = !out.opaque && samples > kMostSamples;
-        if (out.wide) {
-            for (std::size_t q = 0; q < 4; ++q)
-                add_up_wide(node, q, level, below[q], out);
+        out.is_wide = !out.is_opaque && samples > kMostSamples;
+        if (level == finest_ && out.is_opaque) {
+            widen(sums_.short_brick(node), out.narrow);
             return;
         }
-        if (level == finest_) {
-            out.narrow_sums = &sums_.narrow_brick(node.brick).planes;
-            return;
+        for (std::size_t q = 0; q < 4; ++q) {
+            if (node.child[q] == kNoDetail) {
+                sums_.visit(node, [&](const auto& sums) { take(sums, q, level, out); });
+            } else if (out.is_wide) {
+                add_up_wide(below[q], q, level, out);
+            } else {
+                add_up_narrow(below[q], q, level, out);
+            }
         }
-        out.narrow_sums = &out.own_sums;
-        for (std::size_t q = 0; q < 4; ++q) add_up_narrow(node, q, level, below[q], out);
     }
 
-    void add_up_narrow(const TreeNode& node,
-                       std::size_t q,
-                       int level,
-                       const Averaged& below,
-                       Averaged& out) const {
-        const std::size_t corner = corner_of(q);
-        bool opaque = false;
-        if (node.child[q] != kNoDetail) {
-            opaque = below.opaque;
-            halve(*below.narrow_sums, opaque ? 3 : 4, corner, out.own_sums);
-        } else {
-            const NarrowSums& brick = sums_.narrow_brick(node.brick);
-            opaque = brick.opaque;
-            for (std::size_t plane = 0; plane < (opaque ? 3U : 4U); ++plane) {
-                for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-                    const std::size_t to = in_quadrant(corner, i);
-                    out.own_sums[plane][to] = brick.planes[plane][to] << log2_area(level);
+    // A quadrant without finer detail.
+    void take(const ShortSums& sums, std::size_t q, int level, Averaged& out) const {
+        if (out.is_opaque) return take_planes(sums, q, level, out);
+        take_each(sums, q, level, out);
+    }
+    void take(const NarrowSums& sums, std::size_t q, int level, Averaged& out) const {
+        if (!out.is_wide) return take_planes(sums, q, level, out);
+        take_each(sums, q, level, out);
+    }
+    void take(const WideSums& sums, std::size_t q, int level, Averaged& out) const {
+        take_each(sums, q, level, out);
+    }
+    template <typename Sums>
+    void take_planes(const Sums& sums, std::size_t q, int level, Averaged& out) const {
+        const int below = log2_area(level);
+        for (std::size_t plane = 0; plane < sums.size(); ++plane) {
+            const auto* const from = sums[plane].data() + corner_of(q);
+            std::uint32_t* const to = out.narrow[plane].data() + corner_of(q);
+            for (std::size_t y = 0; y < kHalf; ++y) {
+                for (std::size_t x = 0; x < kHalf; ++x) {
+                    to[y * kSide + x] = std::uint32_t{from[y * kSide + x]} << below;
                 }
             }
         }
-        if (!opaque || out.opaque) return;
+    }
+    template <typename Sums>
+    void take_each(const Sums& sums, std::size_t q, int level, Averaged& out) const {
+        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
+            const std::size_t at = in_quadrant(corner_of(q), i);
+            const PixelSum sum = sum_at(sums, frames(), at);
+            const int below = log2_area(level);
+            put(at,
+                {sum.r << below, sum.g << below, sum.b << below, sum.a << below},
+                out);
+        }
+    }
+    static void put(std::size_t at, const PixelSum& sum, Averaged& out) {
+        const std::array<std::uint64_t, 4> channels = {sum.r, sum.g, sum.b, sum.a};
+        for (std::size_t plane = 0; plane < channels.size(); ++plane) {
+            if (out.is_wide) {
+                out.wide[plane][at] = channels[plane];
+            } else {
+                out.narrow[plane][at] = static_cast<std::uint32_t>(channels[plane]);
+            }
+        }
+    }
+
+    // Requires: neither is wide.
+    void add_up_narrow(const Averaged& below,
+                       std::size_t q,
+                       int level,
+                       Averaged& out) const {
+        const std::size_t corner = corner_of(q);
+        halve(below.narrow, below.is_opaque ? 3 : 4, corner, out.narrow);
+        if (!below.is_opaque || out.is_opaque) return;
         const auto alpha = static_cast<std::uint32_t>(255 * samples_at(level));
         for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-            const std::size_t to = in_quadrant(corner, i);
-            for (std::size_t plane = 0; plane < 3; ++plane)
-                out.own_sums[plane][to] *= 255;
-            out.own_sums[3][to] = alpha;
+            const std::size_t at = in_quadrant(corner, i);
+            for (std::size_t plane = 0; plane < 3; ++plane) out.narrow[plane][at] *= 255;
+            out.narrow[3][at] = alpha;
         }
     }
 
-    void add_up_wide(const TreeNode& node,
+    void add_up_wide(const Averaged& below,
                      std::size_t q,
                      int level,
-                     const Averaged& below,
                      Averaged& out) const {
-        const std::size_t corner = corner_of(q);
         Sums finer;
-        if (node.child[q] != kNoDetail) {
-            const std::uint64_t samples = samples_at(level + 1);
-            for (std::size_t i = 0; i < kBrickPixels; ++i)
-                finer[i] = below.sum(i, samples);
+        for (std::size_t i = 0; i < kBrickPixels; ++i) {
+            finer[i] = below.sum(i, samples_at(level + 1));
         }
         for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-            const std::size_t to = in_quadrant(corner, i);
-            PixelSum sum;
-            if (node.child[q] != kNoDetail) {
-                sum = sum_of_four(finer.data(), kSide, i % kHalf, i / kHalf);
-            } else {
-                sum = scaled(sums_.wide() ? sum_at(sums_.wide_brick(node.brick), to)
-                                          : narrow_sum(node.brick, to),
-                             log2_area(level));
-            }
-            out.wide_sums[0][to] = sum.r;
-            out.wide_sums[1][to] = sum.g;
-            out.wide_sums[2][to] = sum.b;
-            out.wide_sums[3][to] = sum.a;
+            put(in_quadrant(corner_of(q), i),
+                sum_of_four(finer.data(), kSide, i % kHalf, i / kHalf),
+                out);
         }
-    }
-
-    [[nodiscard]] PixelSum narrow_sum(std::uint32_t brick, std::size_t i) const {
-        const NarrowSums& sums = sums_.narrow_brick(brick);
-        return sum_at(sums.planes, sums.opaque, frames(), i);
-    }
-    static PixelSum scaled(const PixelSum& sum, int log2) {
-        return {sum.r << log2, sum.g << log2, sum.b << log2, sum.a << log2};
     }
 
     void average_brick(int level, std::int64_t x, std::int64_t y, Averaged& out) const {
         const std::uint64_t samples = samples_at(level);
         PixelWords& words = out.edge[kPad].words;
-        if (out.wide) {
+        if (out.is_wide) {
             for (std::size_t i = 0; i < kBrickPixels; ++i) {
-                words[i] = word_of(mean(sum_at(out.wide_sums, i), samples));
+                words[i] = word_of(mean(out.sum(i, samples), samples));
             }
         } else {
-            (out.opaque ? mean_of_opaque : mean_of)(
-                *out.narrow_sums, static_cast<std::uint32_t>(samples), words);
+            (out.is_opaque ? mean_of_opaque : mean_of)(
+                out.narrow, static_cast<std::uint32_t>(samples), words);
         }
         const Box box = square(level - kBrickLevel, x, y);
-        out.same = box.right <= width_ && box.bottom <= height_;
+        out.is_same = box.right <= width_ && box.bottom <= height_;
         // Each of the finest pixels lies inside or outside as a whole.
-        if (out.same || level == finest_ || samples_inside(box) == 0) {
-            out.same = true;
+        if (out.is_same || level == finest_ || samples_inside(box) == 0) {
+            out.is_same = true;
             return;
         }
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
@@ -280,7 +297,7 @@ class Averager {
     }
 
     // Of the squares below, those become nodes that show more than this one.
-    void keep_finer(const TreeNode& node,
+    void keep_finer(const SumNode& node,
                     const std::array<Averaged, 4>& below,
                     Averaged& out) {
         EdgeNode& pad = out.edge[kPad];
@@ -291,8 +308,8 @@ class Averager {
             if (node.child[q] == kNoDetail) continue;
             const EdgeNode& finer = below[q].edge[kPad];
             if (finer.is_finer_than(pad.words, q)) pad.child[q] = emit(finer);
-            if (out.same) continue;
-            if (!below[q].same) {
+            if (out.is_same) continue;
+            if (!below[q].is_same) {
                 const EdgeNode& other = below[q].edge[kNormalize];
                 if (other.is_finer_than(normalize.words, q)) {
                     normalize.child[q] = emit(other);
@@ -302,7 +319,7 @@ class Averager {
                     pad.child[q] == kNoDetail ? emit(finer) : pad.child[q];
             }
         }
-        out.same = out.same || pad == normalize;
+        out.is_same = out.is_same || pad == normalize;
     }
 
     std::uint32_t emit(const EdgeNode& node) {
@@ -334,7 +351,7 @@ class Averager {
     }
 
     // By what of a brick has no finer detail.
-    void extend_bounds(const TreeNode& node,
+    void extend_bounds(const SumNode& node,
                        int level,
                        std::int64_t x,
                        std::int64_t y,

@@ -21,61 +21,59 @@ using U = hn::Vec<decltype(kU)>;
 using I = hn::Vec<decltype(kI)>;
 using F = hn::Vec<decltype(kF)>;
 
-template <bool kOpaque, bool kSet>
-HWY_INLINE void Accumulate(const PixelWords& pixels,
-                           std::uint32_t repeats,
-                           SumPlanes& sums) {
+struct Channels {
+    U r, g, b, a;
+};
+
+HWY_INLINE Channels LoadPixels(const PixelWords& pixels, std::size_t i) {
     const U byte = hn::Set(kU, 255);
+    const U pixel = hn::LoadU(kU, pixels.data() + i);
+    return {hn::And(pixel, byte),
+            hn::And(hn::ShiftRight<8>(pixel), byte),
+            hn::And(hn::ShiftRight<16>(pixel), byte),
+            hn::ShiftRight<24>(pixel)};
+}
+
+void AddOpaque(const PixelWords& pixels, std::uint32_t repeats, ShortSums& sums) {
+    const hn::Rebind<std::uint16_t, decltype(kU)> d;
     const U times = hn::Set(kU, repeats);
-    const auto keep = [&sums](std::size_t plane, std::size_t i, U value) {
-        std::uint32_t* const at = sums[plane].data() + i;
-        hn::StoreU(kSet ? value : hn::Add(hn::LoadU(kU, at), value), kU, at);
-    };
     for (std::size_t i = 0; i < kBrickPixels; i += hn::Lanes(kU)) {
-        const U pixel = hn::LoadU(kU, pixels.data() + i);
-        U r = hn::And(pixel, byte);
-        U g = hn::And(hn::ShiftRight<8>(pixel), byte);
-        U b = hn::And(hn::ShiftRight<16>(pixel), byte);
-        if (kOpaque) {
-            if (repeats != 1) {
-                r = hn::Mul(r, times);
-                g = hn::Mul(g, times);
-                b = hn::Mul(b, times);
-            }
-        } else {
-            U a = hn::ShiftRight<24>(pixel);
-            if (repeats != 1) a = hn::Mul(a, times);
-            r = hn::Mul(r, a);
-            g = hn::Mul(g, a);
-            b = hn::Mul(b, a);
-            keep(3, i, a);
-        }
-        keep(0, i, r);
-        keep(1, i, g);
-        keep(2, i, b);
+        const auto add = [&](std::size_t plane, U value) {
+            if (repeats != 1) value = hn::Mul(value, times);
+            std::uint16_t* const at = sums[plane].data() + i;
+            const auto added = hn::DemoteTo(d, hn::BitCast(kI, value));
+            hn::StoreU(hn::Add(hn::LoadU(d, at), added), d, at);
+        };
+        const Channels pixel = LoadPixels(pixels, i);
+        add(0, pixel.r);
+        add(1, pixel.g);
+        add(2, pixel.b);
     }
 }
 
-void SetPixels(const PixelWords& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    Accumulate<false, true>(pixels, repeats, sums);
-}
-void AddPixels(const PixelWords& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    Accumulate<false, false>(pixels, repeats, sums);
-}
-void SetOpaque(const PixelWords& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    Accumulate<true, true>(pixels, repeats, sums);
-}
-void AddOpaque(const PixelWords& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    Accumulate<true, false>(pixels, repeats, sums);
+void AddPixels(const PixelWords& pixels, std::uint32_t repeats, NarrowSums& sums) {
+    const U times = hn::Set(kU, repeats);
+    for (std::size_t i = 0; i < kBrickPixels; i += hn::Lanes(kU)) {
+        const auto add = [&](std::size_t plane, U value) {
+            std::uint32_t* const at = sums[plane].data() + i;
+            hn::StoreU(hn::Add(hn::LoadU(kU, at), value), kU, at);
+        };
+        const Channels pixel = LoadPixels(pixels, i);
+        const U weight = hn::Mul(pixel.a, times);
+        add(0, hn::Mul(pixel.r, weight));
+        add(1, hn::Mul(pixel.g, weight));
+        add(2, hn::Mul(pixel.b, weight));
+        add(3, weight);
+    }
 }
 
-void AddPlanes(const SumPlanes& added, std::size_t planes, SumPlanes& sums) {
-    for (std::size_t plane = 0; plane < planes; ++plane) {
-        const std::uint32_t* HWY_RESTRICT from = added[plane].data();
-        std::uint32_t* HWY_RESTRICT to = sums[plane].data();
+void Widen(const ShortSums& sums, NarrowSums& wider) {
+    const hn::Rebind<std::uint16_t, decltype(kU)> d;
+    for (std::size_t plane = 0; plane < sums.size(); ++plane) {
+        const std::uint16_t* HWY_RESTRICT from = sums[plane].data();
+        std::uint32_t* HWY_RESTRICT to = wider[plane].data();
         for (std::size_t i = 0; i < kBrickPixels; i += hn::Lanes(kU)) {
-            hn::StoreU(
-                hn::Add(hn::LoadU(kU, to + i), hn::LoadU(kU, from + i)), kU, to + i);
+            hn::StoreU(hn::PromoteTo(kU, hn::LoadU(d, from + i)), kU, to + i);
         }
     }
 }
@@ -100,10 +98,10 @@ HWY_INLINE void HalveRows(const std::uint32_t* HWY_RESTRICT upper,
 }
 #endif
 
-void Halve(const SumPlanes& sums,
+void Halve(const NarrowSums& sums,
            std::size_t planes,
            std::size_t corner,
-           SumPlanes& above) {
+           NarrowSums& above) {
     for (std::size_t plane = 0; plane < planes; ++plane) {
         const std::uint32_t* from = sums[plane].data();
         std::uint32_t* to = above[plane].data() + corner;
@@ -126,7 +124,7 @@ HWY_INLINE I Quotient(I dividend, I divisor, F reciprocal) {
     return hn::Sub(hn::Add(estimate, below), above);
 }
 
-HWY_INLINE I LoadSums(const SumPlanes& sums, std::size_t plane, std::size_t i) {
+HWY_INLINE I LoadSums(const NarrowSums& sums, std::size_t plane, std::size_t i) {
     return hn::BitCast(kI, hn::LoadU(kU, sums[plane].data() + i));
 }
 
@@ -139,7 +137,7 @@ HWY_INLINE void StoreWords(I words, PixelWords& means, std::size_t i) {
     hn::StoreU(hn::BitCast(kU, words), kU, means.data() + i);
 }
 
-void MeanOf(const SumPlanes& sums, std::uint32_t samples, PixelWords& means) {
+void MeanOf(const NarrowSums& sums, std::uint32_t samples, PixelWords& means) {
     const I one = hn::Set(kI, 1);
     const I count = hn::Set(kI, static_cast<std::int32_t>(samples));
     const I half_count = hn::Set(kI, static_cast<std::int32_t>(samples / 2));
@@ -159,7 +157,7 @@ void MeanOf(const SumPlanes& sums, std::uint32_t samples, PixelWords& means) {
 }
 
 // By shifting, where the number of samples is a power of two: most time nodes cover one.
-void MeanOfOpaque(const SumPlanes& sums, std::uint32_t samples, PixelWords& means) {
+void MeanOfOpaque(const NarrowSums& sums, std::uint32_t samples, PixelWords& means) {
     const I opaque = hn::Set(kI, 255);
     const I half = hn::Set(kI, static_cast<std::int32_t>(samples / 2));
     if (std::has_single_bit(samples)) {
@@ -190,11 +188,9 @@ HWY_AFTER_NAMESPACE();
 namespace haarmony::video {
 namespace {
 
-HWY_EXPORT(SetPixels);
-HWY_EXPORT(AddPixels);
-HWY_EXPORT(SetOpaque);
 HWY_EXPORT(AddOpaque);
-HWY_EXPORT(AddPlanes);
+HWY_EXPORT(AddPixels);
+HWY_EXPORT(Widen);
 HWY_EXPORT(Halve);
 HWY_EXPORT(MeanOf);
 HWY_EXPORT(MeanOfOpaque);
@@ -203,41 +199,34 @@ static_assert(std::endian::native == std::endian::little);
 
 }  // namespace
 
-void set_pixels(const Brick& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    HWY_DYNAMIC_DISPATCH(SetPixels)(std::bit_cast<PixelWords>(pixels), repeats, sums);
-}
-
-void add_pixels(const Brick& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    HWY_DYNAMIC_DISPATCH(AddPixels)(std::bit_cast<PixelWords>(pixels), repeats, sums);
-}
-
-void set_opaque(const Brick& pixels, std::uint32_t repeats, SumPlanes& sums) {
-    HWY_DYNAMIC_DISPATCH(SetOpaque)(std::bit_cast<PixelWords>(pixels), repeats, sums);
-}
-
-void add_opaque(const Brick& pixels, std::uint32_t repeats, SumPlanes& sums) {
+void add_opaque(const Brick& pixels, std::uint32_t repeats, ShortSums& sums) {
+    assert(repeats >= 1 && repeats <= kMostShortFrames);
     HWY_DYNAMIC_DISPATCH(AddOpaque)(std::bit_cast<PixelWords>(pixels), repeats, sums);
 }
 
-void add_planes(const SumPlanes& added, std::size_t planes, SumPlanes& sums) {
-    assert(planes <= sums.size());
-    HWY_DYNAMIC_DISPATCH(AddPlanes)(added, planes, sums);
+void add_pixels(const Brick& pixels, std::uint32_t repeats, NarrowSums& sums) {
+    assert(repeats >= 1 && repeats <= kMostNarrowFrames);
+    HWY_DYNAMIC_DISPATCH(AddPixels)(std::bit_cast<PixelWords>(pixels), repeats, sums);
 }
 
-void halve(const SumPlanes& sums,
+void widen(const ShortSums& sums, NarrowSums& wider) {
+    HWY_DYNAMIC_DISPATCH(Widen)(sums, wider);
+}
+
+void halve(const NarrowSums& sums,
            std::size_t planes,
            std::size_t corner,
-           SumPlanes& above) {
+           NarrowSums& above) {
     assert(planes <= sums.size());
     HWY_DYNAMIC_DISPATCH(Halve)(sums, planes, corner, above);
 }
 
-void mean_of(const SumPlanes& sums, std::uint32_t samples, PixelWords& means) {
+void mean_of(const NarrowSums& sums, std::uint32_t samples, PixelWords& means) {
     assert(samples >= 1 && samples <= kMostSamples);
     HWY_DYNAMIC_DISPATCH(MeanOf)(sums, samples, means);
 }
 
-void mean_of_opaque(const SumPlanes& sums, std::uint32_t samples, PixelWords& means) {
+void mean_of_opaque(const NarrowSums& sums, std::uint32_t samples, PixelWords& means) {
     assert(samples >= 1 && samples <= kMostOpaqueSamples);
     HWY_DYNAMIC_DISPATCH(MeanOfOpaque)(sums, samples, means);
 }

@@ -1,163 +1,125 @@
 #include "engine/video/sum_tree.h"
 
 #include <algorithm>
-#include <cassert>
+
+#include "engine/video/sum_kernel.h"
 
 namespace haarmony::video {
 namespace {
 
-// A quadrant of 8 x 8 values with twice the detail.
-template <typename Value>
-std::array<Value, kBrickPixels> quadrant_of(const std::array<Value, kBrickPixels>& values,
-                                            std::size_t quadrant) {
-    constexpr std::size_t kHalf = kBrickSide / 2;
-    const Value* const corner =
-        &values[(quadrant >> 1) * kHalf * kBrickSide + (quadrant & 1) * kHalf];
-    std::array<Value, kBrickPixels> finer;
-    for (std::size_t y = 0; y < kBrickSide; ++y) {
-        for (std::size_t x = 0; x < kBrickSide; ++x) {
-            finer[y * kBrickSide + x] = corner[y / 2 * kBrickSide + x / 2];
-        }
-    }
-    return finer;
-}
-
-template <typename Sum>
-Planes<Sum> quadrant_of(const Planes<Sum>& planes, std::size_t quadrant) {
-    return {quadrant_of(planes[0], quadrant),
-            quadrant_of(planes[1], quadrant),
-            quadrant_of(planes[2], quadrant),
-            quadrant_of(planes[3], quadrant)};
-}
-
-NarrowSums quadrant_of(const NarrowSums& sums, std::size_t quadrant) {
-    NarrowSums finer;
-    finer.opaque = sums.opaque;
-    for (std::size_t plane = 0; plane < (sums.opaque ? 3U : 4U); ++plane) {
-        finer.planes[plane] = quadrant_of(sums.planes[plane], quadrant);
-    }
-    return finer;
-}
-
-bool is_opaque(const Brick& pixels) {
-    std::uint8_t alpha = 255;
-    for (const Rgba& pixel : pixels) alpha &= pixel.a;
-    return alpha == 255;
-}
-
-// Sums of opaque pixels as those of any.
-void weigh(NarrowSums& sums, std::uint64_t samples) {
-    if (!sums.opaque) return;
-    sums.opaque = false;
-    for (std::size_t plane = 0; plane < 3; ++plane) {
-        for (std::uint32_t& sum : sums.planes[plane]) sum *= 255;
-    }
-    sums.planes[3].fill(static_cast<std::uint32_t>(255 * samples));
-}
-
-void add_sum(WidePlanes& planes, std::size_t i, const PixelSum& sum) {
-    planes[0][i] += sum.r;
-    planes[1][i] += sum.g;
-    planes[2][i] += sum.b;
-    planes[3][i] += sum.a;
-}
-
-struct PixelSource {
+struct PictureSource {
     const ImageTree& tree;
 
     [[nodiscard]] const TreeNode& node(std::uint32_t at) const { return tree.nodes[at]; }
-    [[nodiscard]] const Brick& brick(std::uint32_t at) const { return tree.bricks[at]; }
-};
-
-struct NarrowSource {
-    const SumTree& sums;
-
-    [[nodiscard]] const TreeNode& node(std::uint32_t at) const { return sums.node(at); }
-    [[nodiscard]] const NarrowSums& brick(std::uint32_t at) const {
-        return sums.narrow_brick(at);
+    template <typename Visitor>
+    void visit(const TreeNode& node, const Visitor& visitor) const {
+        visitor(tree.bricks[node.brick]);
     }
 };
 
-struct WideSource {
-    const SumTree& sums;
+// The shortest sums that pixels or sums can be added to, whatever the number of frames.
+SumWidth width_of(const Brick& pixels) {
+    std::uint8_t alpha = 255;
+    for (const Rgba& pixel : pixels) alpha &= pixel.a;
+    return alpha == 255 ? SumWidth::kShort : SumWidth::kNarrow;
+}
+SumWidth width_of(const ShortSums&) { return SumWidth::kShort; }
+SumWidth width_of(const NarrowSums&) { return SumWidth::kNarrow; }
+SumWidth width_of(const WideSums&) { return SumWidth::kWide; }
 
-    [[nodiscard]] const TreeNode& node(std::uint32_t at) const { return sums.node(at); }
-    [[nodiscard]] const WidePlanes& brick(std::uint32_t at) const {
-        return sums.wide_brick(at);
-    }
-};
+SumWidth width_of(std::uint64_t frames) {
+    return frames <= kMostShortFrames    ? SumWidth::kShort
+           : frames <= kMostNarrowFrames ? SumWidth::kNarrow
+                                         : SumWidth::kWide;
+}
+
+// The sums have room for what is added: widen() saw to it.
+void add_to(ShortSums& sums, const Brick& pixels, std::uint64_t frames) {
+    add_opaque(pixels, static_cast<std::uint32_t>(frames), sums);
+}
+void add_to(ShortSums& sums, const ShortSums& added, std::uint64_t) {
+    add_planes(added, sums);
+}
+template <typename Addend>
+void add_to(ShortSums&, const Addend&, std::uint64_t) {
+    assert(false);
+}
+void add_to(NarrowSums& sums, const Brick& pixels, std::uint64_t frames) {
+    add_pixels(pixels, static_cast<std::uint32_t>(frames), sums);
+}
+void add_to(NarrowSums& sums, const NarrowSums& added, std::uint64_t) {
+    add_planes(added, sums);
+}
+template <typename Addend>
+void add_to(NarrowSums& sums, const Addend& added, std::uint64_t frames) {
+    add_each(added, frames, sums);
+}
+template <typename Addend>
+void add_to(WideSums& sums, const Addend& added, std::uint64_t frames) {
+    add_each(added, frames, sums);
+}
+
+template <typename T>
+std::uint32_t index_of_new(std::vector<T>& all) {
+    all.emplace_back();
+    return static_cast<std::uint32_t>(all.size() - 1);
+}
 
 }  // namespace
 
-PixelSum sum_at(const SumPlanes& planes,
-                bool opaque,
-                std::uint64_t samples,
-                std::size_t i) {
-    const std::uint64_t r = planes[0][i], g = planes[1][i], b = planes[2][i];
-    if (opaque) return {255 * r, 255 * g, 255 * b, 255 * samples};
-    return {r, g, b, planes[3][i]};
-}
-
-PixelSum sum_at(const WidePlanes& planes, std::size_t i) {
-    return {planes[0][i], planes[1][i], planes[2][i], planes[3][i]};
-}
-
 void SumTree::add(const ImageTree& tree, std::int64_t repeats) {
     assert(repeats >= 1 && tree.root != kNoDetail);
-    add_tree(PixelSource{tree}, tree.root, static_cast<std::uint64_t>(repeats));
+    add_tree(PictureSource{tree}, tree.root, repeats);
 }
 
 void SumTree::add(const SumTree& other) {
     assert(this != &other);
-    if (other.frames_ == 0) return;
-    const auto count = static_cast<std::uint64_t>(other.frames_);
-    if (other.wide_) {
-        add_tree(WideSource{other}, other.root(), count);
-    } else {
-        add_tree(NarrowSource{other}, other.root(), count);
-    }
+    if (other.frames_ > 0) add_tree(other, other.root(), other.frames_);
 }
 
 void SumTree::clear() {
     nodes_.clear();
-    narrow_bricks_.clear();
-    wide_bricks_.clear();
+    short_.clear();
+    narrow_.clear();
+    wide_.clear();
     frames_ = 0;
-    wide_ = false;
 }
 
 template <typename Source>
 void SumTree::add_tree(const Source& source,
                        std::uint32_t root_node,
-                       std::uint64_t count) {
+                       std::int64_t frames) {
     if (nodes_.empty()) nodes_.emplace_back();
-    if (!wide_ && static_cast<std::uint64_t>(frames_) + count > kMostSamples) widen();
+    const Count count{.before = static_cast<std::uint64_t>(frames_),
+                      .added = static_cast<std::uint64_t>(frames)};
     add_node(root(), source, root_node, count);
-    frames_ += static_cast<std::int64_t>(count);
+    frames_ += frames;
 }
 
 template <typename Source>
 void SumTree::add_node(std::uint32_t at,
                        const Source& source,
                        std::uint32_t node,
-                       std::uint64_t count) {
-    const TreeNode& added = source.node(node);
+                       const Count& count) {
+    const auto& added = source.node(node);
     bool has_flat = false;
     for (std::size_t q = 0; q < 4; ++q) {
         if (added.child[q] != kNoDetail) {
             add_node(split(at, q), source, added.child[q], count);
         } else if (nodes_[at].child[q] != kNoDetail) {
-            add_flat(
-                nodes_[at].child[q], quadrant_of(source.brick(added.brick), q), count);
+            source.visit(added, [&](const auto& brick) {
+                add_flat(nodes_[at].child[q], quadrant_of(brick, q), count);
+            });
         } else {
             has_flat = true;
         }
     }
-    if (has_flat) add_brick(at, source.brick(added.brick), count);
+    if (!has_flat) return;
+    source.visit(added, [&](const auto& brick) { add_brick(at, brick, count); });
 }
 
 template <typename Addend>
-void SumTree::add_flat(std::uint32_t at, const Addend& addend, std::uint64_t count) {
+void SumTree::add_flat(std::uint32_t at, const Addend& addend, const Count& count) {
     bool has_flat = false;
     for (std::size_t q = 0; q < 4; ++q) {
         if (nodes_[at].child[q] == kNoDetail) {
@@ -169,100 +131,65 @@ void SumTree::add_flat(std::uint32_t at, const Addend& addend, std::uint64_t cou
     if (has_flat) add_brick(at, addend, count);
 }
 
-void SumTree::add_brick(std::uint32_t at, const Brick& pixels, std::uint64_t count) {
-    if (wide_) {
-        WidePlanes& brick = wide_brick_of(at);
-        for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            add_sum(brick, i, sum_of(pixels[i], count));
-        }
-        return;
-    }
-    const auto repeats = static_cast<std::uint32_t>(count);
-    const bool opaque = is_opaque(pixels);
-    if (nodes_[at].brick == kNoDetail) {
-        nodes_[at].brick = static_cast<std::uint32_t>(narrow_bricks_.size());
-        NarrowSums& brick = narrow_bricks_.emplace_back();
-        brick.opaque = opaque;
-        (opaque ? set_opaque : set_pixels)(pixels, repeats, brick.planes);
-        return;
-    }
-    NarrowSums& brick = narrow_bricks_[nodes_[at].brick];
-    if (!opaque) weigh(brick, static_cast<std::uint64_t>(frames_));
-    (brick.opaque ? add_opaque : add_pixels)(pixels, repeats, brick.planes);
-}
-
-void SumTree::add_brick(std::uint32_t at, const NarrowSums& sums, std::uint64_t count) {
-    if (wide_) {
-        WidePlanes& brick = wide_brick_of(at);
-        for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            add_sum(brick, i, sum_at(sums.planes, sums.opaque, count, i));
-        }
-        return;
-    }
-    if (nodes_[at].brick == kNoDetail) {
-        nodes_[at].brick = static_cast<std::uint32_t>(narrow_bricks_.size());
-        NarrowSums& brick = narrow_bricks_.emplace_back();
-        brick.opaque = sums.opaque;
-        std::copy_n(sums.planes.begin(), sums.opaque ? 3 : 4, brick.planes.begin());
-        return;
-    }
-    NarrowSums& brick = narrow_bricks_[nodes_[at].brick];
-    if (!sums.opaque) weigh(brick, static_cast<std::uint64_t>(frames_));
-    if (sums.opaque && !brick.opaque) {
-        NarrowSums weighed = sums;
-        weigh(weighed, count);
-        add_planes(weighed.planes, 4, brick.planes);
-    } else {
-        add_planes(sums.planes, brick.opaque ? 3 : 4, brick.planes);
+template <typename Addend>
+void SumTree::add_brick(std::uint32_t at, const Addend& addend, const Count& count) {
+    SumNode& node = nodes_[at];
+    widen(node,
+          std::max(width_of(addend), width_of(count.before + count.added)),
+          count.before);
+    switch (node.width) {
+        case SumWidth::kShort:
+            return add_to(short_[node.brick], addend, count.added);
+        case SumWidth::kNarrow:
+            return add_to(narrow_[node.brick], addend, count.added);
+        case SumWidth::kWide:
+            return add_to(wide_[node.brick], addend, count.added);
     }
 }
 
-void SumTree::add_brick(std::uint32_t at, const WidePlanes& sums, std::uint64_t) {
-    assert(wide_);
-    WidePlanes& brick = wide_brick_of(at);
-    for (std::size_t plane = 0; plane < sums.size(); ++plane) {
-        for (std::size_t i = 0; i < kBrickPixels; ++i) brick[plane][i] += sums[plane][i];
+// Gives the node, which has so many frames, a brick of this width at least.
+void SumTree::widen(SumNode& node, SumWidth width, std::uint64_t frames) {
+    const SumNode before = node;
+    if (before.brick != kNoDetail && before.width >= width) return;
+    node.width = width;
+    switch (width) {
+        case SumWidth::kShort:
+            node.brick = index_of_new(short_);
+            return;
+        case SumWidth::kNarrow:
+            node.brick = index_of_new(narrow_);
+            if (before.brick == kNoDetail) return;
+            return add_each(short_[before.brick], frames, narrow_[node.brick]);
+        case SumWidth::kWide:
+            node.brick = index_of_new(wide_);
+            if (before.brick == kNoDetail) return;
+            return visit(before, [&](const auto& sums) {
+                add_each(sums, frames, wide_[node.brick]);
+            });
     }
-}
-
-WidePlanes& SumTree::wide_brick_of(std::uint32_t at) {
-    if (nodes_[at].brick == kNoDetail) {
-        nodes_[at].brick = static_cast<std::uint32_t>(wide_bricks_.size());
-        return wide_bricks_.emplace_back(WidePlanes{});
-    }
-    return wide_bricks_[nodes_[at].brick];
 }
 
 // The child below a quadrant: made, if need be, of what was added to the quadrant so far.
 std::uint32_t SumTree::split(std::uint32_t at, std::size_t quadrant) {
     if (nodes_[at].child[quadrant] != kNoDetail) return nodes_[at].child[quadrant];
-    const auto child = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[at].child[quadrant] = child;
-    const std::uint32_t brick = nodes_[at].brick;
-    nodes_.emplace_back();
-    if (brick == kNoDetail) return child;
-    if (wide_) {
-        nodes_[child].brick = static_cast<std::uint32_t>(wide_bricks_.size());
-        wide_bricks_.push_back(quadrant_of(wide_bricks_[brick], quadrant));
-    } else {
-        nodes_[child].brick = static_cast<std::uint32_t>(narrow_bricks_.size());
-        narrow_bricks_.push_back(quadrant_of(narrow_bricks_[brick], quadrant));
+    const std::uint32_t index = index_of_new(nodes_);
+    nodes_[at].child[quadrant] = index;
+    const SumNode& parent = nodes_[at];
+    SumNode& child = nodes_[index];
+    if (parent.brick == kNoDetail) return index;
+    widen(child, parent.width, 0);
+    switch (parent.width) {
+        case SumWidth::kShort:
+            short_[child.brick] = quadrant_of(short_[parent.brick], quadrant);
+            break;
+        case SumWidth::kNarrow:
+            narrow_[child.brick] = quadrant_of(narrow_[parent.brick], quadrant);
+            break;
+        case SumWidth::kWide:
+            wide_[child.brick] = quadrant_of(wide_[parent.brick], quadrant);
+            break;
     }
-    return child;
-}
-
-void SumTree::widen() {
-    wide_ = true;
-    for (const NarrowSums& sums : narrow_bricks_) {
-        WidePlanes& brick = wide_bricks_.emplace_back(WidePlanes{});
-        for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            add_sum(
-                brick,
-                i,
-                sum_at(sums.planes, sums.opaque, static_cast<std::uint64_t>(frames_), i));
-        }
-    }
-    narrow_bricks_.clear();
+    return index;
 }
 
 }  // namespace haarmony::video
