@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
@@ -198,6 +200,245 @@ TEST(ExactMean, AClearedSumIsAsNew) {
     sum.add(tree_of(clip.frames[1]), 1);
     sum.mean_into(frame);
     expect_exact({clip.format, {clip.frames[1]}}, frame);
+}
+
+// The mean of a square from the definition, each frame as often as it stays.
+Rgba weighted_mean(const RawClip& clip,
+                   const std::vector<std::int64_t>& repeats,
+                   int block,
+                   Edge edge,
+                   int x,
+                   int y) {
+    __extension__ using Wide = __int128;
+    std::array<Wide, 4> sums{};
+    Wide samples = 0;
+    for (std::size_t t = 0; t < clip.frames.size(); ++t) {
+        for (int i = 0; i < block * block; ++i) {
+            const int u = x * block + i % block, v = y * block + i / block;
+            const bool inside = u < clip.format.width && v < clip.format.height;
+            if (inside || edge == Edge::kPad) samples += repeats[t];
+            if (!inside) continue;
+            const Rgba pixel = clip.frames[t].at(u, v);
+            const std::array<int, 3> channels = {pixel.r, pixel.g, pixel.b};
+            for (std::size_t c = 0; c < 3; ++c) {
+                sums[c] += Wide{repeats[t]} * channels[c] * pixel.a;
+            }
+            sums[3] += Wide{repeats[t]} * pixel.a;
+        }
+    }
+    const auto nearest = [](Wide total, Wide count) {
+        return static_cast<std::uint8_t>((2 * total + count) / (2 * count));
+    };
+    const std::uint8_t alpha = samples == 0 ? 0 : nearest(sums[3], samples);
+    if (alpha == 0) return kClear;
+    return {nearest(sums[0], sums[3]),
+            nearest(sums[1], sums[3]),
+            nearest(sums[2], sums[3]),
+            alpha};
+}
+
+void expect_weighted(const RawClip& clip,
+                     const std::vector<std::int64_t>& repeats,
+                     const ExactFrame& frame) {
+    const ClipShape shape = *ClipShape::make(clip.format, 1);
+    for (int level = 0; level <= shape.space_levels(); ++level) {
+        const int block = 1 << (shape.space_levels() - level);
+        for (const Edge edge : kEdgeRules) {
+            for (int y = 0; y < shape.height_at(level); ++y) {
+                for (int x = 0; x < shape.width_at(level); ++x) {
+                    ASSERT_EQ(pixel_of(frame, edge, level, x, y),
+                              weighted_mean(clip, repeats, block, edge, x, y))
+                        << "first repeats " << repeats[0] << ", level " << level
+                        << ", edge " << int(edge) << ", " << x << " " << y;
+                }
+            }
+        }
+    }
+}
+
+// Sums of 16, 32 and 64 bits, and every way from one to the next: frames that fill them in
+// one step or in many, as trees or as sums, opaque or not, all over or in a corner.
+TEST(ExactMean, IsExactHoweverLongTheSumsGet) {
+    const std::vector<std::vector<std::int64_t>> stays = {
+        {1, 255, 1},
+        {1, 256, 1},
+        {257, 1, 1},
+        {200, 200, 200},
+        {1, 2, 32'765},
+        {1, 2, 32'766},
+        {32'768, 1, 1},
+        {100, 40'000, 5},
+        {16'384, 16'384, 16'384},
+        {1, 1'000'000'007, 3},
+        {(std::int64_t{1} << 30) - 2, 1, 1},
+    };
+    std::uint32_t seed = 80;
+    for (const std::vector<std::int64_t>& repeats : stays) {
+        RawClip mixed = blocks(21, 16, 3, seed += 10);
+        for (Rgba& pixel : mixed.frames[0].pixels) pixel.a = 255;
+        for (const RawClip& clip : {random_clip(20, 13, 3, ++seed),
+                                    opaque(random_clip(9, 16, 3, ++seed)),
+                                    opaque(random_clip(32, 32, 3, ++seed)),
+                                    opaque(random_clip(3, 2, 3, ++seed)),
+                                    mixed}) {
+            FrameSum all(clip.format), last(clip.format), joined(clip.format);
+            for (std::size_t t = 0; t < 3; ++t) {
+                const ImageTree tree = tree_of(clip.frames[t]);
+                all.add(tree, repeats[t]);
+                (t == 2 ? last : joined).add(tree, repeats[t]);
+            }
+            joined.add(last);
+            ExactFrame frame, same, turned;
+            all.mean_into(frame);
+            expect_weighted(clip, repeats, frame);
+            joined.mean_into(same);
+            EXPECT_EQ(same, frame);
+            last.clear();
+            for (std::size_t t = 3; t-- > 0;)
+                last.add(tree_of(clip.frames[t]), repeats[t]);
+            last.mean_into(turned);
+            EXPECT_EQ(turned, frame);
+        }
+    }
+}
+
+// 2^47 samples, all there may be: of leaves, since no test could hold the pixels.
+TEST(ExactMean, OfTheLargestClipIsExact) {
+    const FrameFormat format{kMaxSide, kMaxSide, {}};
+    const std::vector<LeafSquare> first = {{0, 0, 0, {255, 254, 1, 255}}};
+    const std::vector<LeafSquare> second = {{1, 0, 0, {255, 255, 255, 255}},
+                                            {16, 65'535, 65'535, {255, 3, 0, 255}}};
+    FrameSum sum(format);
+    ImageTree tree;
+    ASSERT_TRUE(create_frame(first, format, tree).has_value());
+    sum.add(tree, 32'767);
+    ASSERT_TRUE(create_frame(second, format, tree).has_value());
+    sum.add(tree, 1);
+    ExactFrame frame;
+    sum.mean_into(frame);
+    // By hand: all red is 255; of the 2^32 pixels of the second frame 2^30 + 1 are opaque.
+    __extension__ using Wide = __int128;
+    const Wide pixels = Wide{1} << 32, opaque_pixels = (Wide{1} << 30) + 1;
+    const Wide alpha = 255 * (32'767 * pixels + opaque_pixels);
+    const Wide green = 255 * (254 * 32'767 * pixels + 255 * (opaque_pixels - 1) + 3);
+    const Wide blue = 255 * (32'767 * pixels + 255 * (opaque_pixels - 1));
+    const auto nearest = [](Wide total, Wide count) {
+        return static_cast<std::uint8_t>((2 * total + count) / (2 * count));
+    };
+    const Rgba want{255,
+                    nearest(green, alpha),
+                    nearest(blue, alpha),
+                    nearest(alpha, pixels * 32'768)};
+    EXPECT_EQ(pixel_of(frame, Edge::kPad, 0, 0, 0), want);
+    EXPECT_EQ(pixel_of(frame, Edge::kNormalize, 0, 0, 0), want);
+    EXPECT_EQ(frame.bounds, (Bounds{0, 0, kMaxSide, kMaxSide}));
+}
+
+// Nodes of the two trees at the same place: which squares have one of their own in each.
+void expect_shared(const ExactFrame& frame,
+                   const FrameFormat& format,
+                   std::uint32_t pad,
+                   std::uint32_t normalize,
+                   std::int64_t x,
+                   std::int64_t y,
+                   std::int64_t side) {
+    const bool outside = x >= format.width || y >= format.height;
+    const bool crossed =
+        !outside && (x + side > format.width || y + side > format.height);
+    if (!crossed) {
+        ASSERT_EQ(pad, normalize) << x << " " << y << ", " << side << " pixels";
+    }
+    if (pad == normalize) return;
+    for (std::size_t q = 0; q < 4; ++q) {
+        const std::uint32_t a = frame.nodes[pad].child[q];
+        const std::uint32_t b = frame.nodes[normalize].child[q];
+        if (a == kNoDetail || b == kNoDetail) continue;
+        const std::int64_t half = side / 2;
+        expect_shared(frame,
+                      format,
+                      a,
+                      b,
+                      x + half * static_cast<std::int64_t>(q & 1),
+                      y + half * static_cast<std::int64_t>(q >> 1),
+                      half);
+    }
+}
+
+TEST(ExactMean, TheTreesShareNodesThatNoEdgeCrosses) {
+    for (const RawClip& clip : {random_clip(70, 33, 2, 71),
+                                opaque(random_clip(64, 64, 2, 72)),
+                                opaque(random_clip(40, 64, 1, 73)),
+                                blocks(90, 100, 2, 74)}) {
+        const ExactFrame frame = mean_of(clip);
+        expect_shared(frame,
+                      clip.format,
+                      frame.root[0],
+                      frame.root[1],
+                      0,
+                      0,
+                      std::int64_t{1} << shape_of(clip).space_levels());
+        std::vector<int> uses(frame.nodes.size());
+        for (const std::uint32_t root : frame.root) ++uses[root];
+        for (const TreeNode& node : frame.nodes) {
+            for (const std::uint32_t child : node.child) {
+                if (child != kNoDetail) ++uses[child];
+            }
+        }
+        for (const int count : uses) ASSERT_GE(count, 1);
+    }
+}
+
+TEST(ExactMean, BoundsAreThoseOfWhatIsNotClear) {
+    std::uint32_t seed = 90;
+    for (const auto& [width, height] : {std::array{1, 1},
+                                        std::array{3, 2},
+                                        std::array{5, 5},
+                                        std::array{30, 50},
+                                        std::array{128, 20}}) {
+        for (int dots = 0; dots <= 3; ++dots) {
+            RawClip clip{{width, height, {}}, {Picture(width, height)}};
+            std::mt19937 random(++seed);
+            for (int i = 0; i < dots; ++i) {
+                clip.frames[0].at(static_cast<int>(random() % unsigned(width)),
+                                  static_cast<int>(random() % unsigned(height))) = {
+                    1, 2, 3, 4};
+            }
+            Bounds want{width, height, 0, 0};
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) {
+                    if (clip.frames[0].at(x, y).a == 0) continue;
+                    want.left = std::min(want.left, x);
+                    want.top = std::min(want.top, y);
+                    want.right = std::max(want.right, x + 1);
+                    want.bottom = std::max(want.bottom, y + 1);
+                }
+            }
+            if (dots == 0) want = {};
+            EXPECT_EQ(mean_of(clip).bounds, want) << width << " x " << height;
+        }
+    }
+}
+
+// A dot that is there for less than half a level's time is not seen, nor counted.
+TEST(ExactMean, BoundsAreOfWhatIsLeftAfterRounding) {
+    Picture dots(16, 16);
+    dots.at(3, 4) = {9, 9, 9, 255};
+    dots.at(12, 13) = {9, 9, 9, 254};
+    const FrameFormat format{16, 16, {}};
+    FrameSum sum(format);
+    sum.add(tree_of(dots), 1);
+    sum.add(tree_of(Picture(16, 16)), 509);
+    ExactFrame frame;
+    sum.mean_into(frame);
+    EXPECT_EQ(pixel_of(frame, Edge::kPad, 4, 3, 4), (Rgba{9, 9, 9, 1}));
+    EXPECT_EQ(frame.bounds, (Bounds{3, 4, 4, 5}));
+}
+
+TEST(ExactMean, AClearClipIsOneBrick) {
+    const ExactFrame frame = mean_of({{300, 200, {}}, {Picture(300, 200)}});
+    EXPECT_EQ(frame.nodes.size(), 1U);
+    EXPECT_EQ(frame.bricks.size(), 1U);
+    EXPECT_TRUE(frame.bounds.empty());
 }
 
 }  // namespace
