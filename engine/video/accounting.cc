@@ -50,8 +50,7 @@ void add_quadrant(const Brick& brick,
                   const Brick& brick_below,
                   const Subtrees& below,
                   Subtrees& subtrees) {
-    const PixelMask alike = equal_pixels(enlarged_quadrant(brick, q), brick_below);
-    const QuadrantMask flat = all_of_four(alike & ~below.here);
+    const int flat = repeated_pixels(brick, q, brick_below) & ~any_of_four(below.here);
     const PixelMask here = in_quadrant(static_cast<QuadrantMask>(~flat), q);
     subtrees.here |= here;
     subtrees.count += below.count + bits_in(here);

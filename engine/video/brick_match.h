@@ -1,5 +1,5 @@
 // Bricks compared with one another: byte for byte, within a bound, and by hash.
-//   brick.h -> [brick_match.h] -> near_match.h, up_links.h, accounting.h
+//   brick.h, pixel_mask.h -> [brick_match.h] -> near_match.h, up_links.h, accounting.h
 //
 // Errors   none.
 // Threads  const-thread-safe.
@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "engine/video/brick.h"
+#include "engine/video/pixel_mask.h"
 
 namespace haarmony::video {
 
@@ -28,7 +29,10 @@ namespace haarmony::video {
 // has no finer detail.
 [[nodiscard]] Brick enlarged_quadrant(const Brick& brick, int q);
 
-// Bit 8 y + x: whether pixel (x, y) is the same in both.
-[[nodiscard]] std::uint64_t equal_pixels(const Brick& a, const Brick& b);
+// Which pixels are the same in both.
+[[nodiscard]] PixelMask equal_pixels(const Brick& a, const Brick& b);
+
+// Which pixels of quadrant q are what all four of `below`, the brick below it, are.
+[[nodiscard]] QuadrantMask repeated_pixels(const Brick& brick, int q, const Brick& below);
 
 }  // namespace haarmony::video

@@ -10,26 +10,23 @@ constexpr std::size_t kFirstSlots = 256;
 
 }  // namespace
 
-ContentTable::ContentTable() : slots_(kFirstSlots, 0) {}
-
-std::size_t ContentTable::first_place(std::uint64_t hash, std::uint32_t kind) const {
-    const std::uint64_t mixed = (hash + kind) * 0x9E37'79B9'7F4A'7C15;
-    return static_cast<std::size_t>(mixed >> 32) & (slots_.size() - 1);
-}
+ContentTable::ContentTable() : slots_(kFirstSlots) {}
 
 void ContentTable::place(std::size_t entry) {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = first_place(entries_[entry].hash, entries_[entry].kind);
+    const std::uint64_t mixed = mix(entries_[entry].hash, entries_[entry].kind);
+    std::size_t at = first_place(mixed);
     for (std::size_t probe = 0; probe < kMaxProbes; ++probe, at = (at + 1) & mask) {
-        if (slots_[at] != 0) continue;
-        slots_[at] = static_cast<Slot>(entry + 1);
+        if (slots_[at].entry != 0) continue;
+        slots_[at] = {static_cast<std::uint32_t>(mixed),
+                      static_cast<std::uint32_t>(entry + 1)};
         return;
     }
 }
 
 void ContentTable::grow() {
-    assert(entries_.size() < std::numeric_limits<Slot>::max() / 2);
-    slots_.assign(2 * slots_.size(), 0);
+    assert(entries_.size() < std::numeric_limits<std::uint32_t>::max() / 2);
+    slots_.assign(2 * slots_.size(), Slot{});
     for (std::size_t entry = 0; entry < entries_.size(); ++entry) place(entry);
 }
 
@@ -39,10 +36,10 @@ void ContentTable::shrink(std::size_t size) {
     // Last come, first gone: no entry that stays was probed past one that goes.
     while (entries_.size() > size) {
         const Entry& last = entries_.back();
-        std::size_t at = first_place(last.hash, last.kind);
+        std::size_t at = first_place(mix(last.hash, last.kind));
         for (std::size_t probe = 0; probe < kMaxProbes; ++probe, at = (at + 1) & mask) {
-            if (slots_[at] != entries_.size()) continue;
-            slots_[at] = 0;
+            if (slots_[at].entry != entries_.size()) continue;
+            slots_[at] = Slot{};
             break;
         }
         entries_.pop_back();

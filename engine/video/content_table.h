@@ -39,10 +39,21 @@ class ContentTable {
         std::uint32_t kind = 0;
         Ref ref = kNoDetailRef;
     };
-    // 0 is empty, else 1 + index of the entry.
-    using Slot = std::uint32_t;
+    // A part of the hash stands beside the index: most slots of others are passed without
+    // a look at their entries, each of which would be fetched from memory.
+    struct Slot {
+        std::uint32_t tag = 0;
+        std::uint32_t entry = 0;  // 1 + index, 0 where there is none
+    };
 
-    [[nodiscard]] std::size_t first_place(std::uint64_t hash, std::uint32_t kind) const;
+    // Its upper half says where to look first, its lower half is the tag.
+    [[nodiscard]] static std::uint64_t mix(std::uint64_t hash, std::uint32_t kind) {
+        const std::uint64_t mixed = (hash + kind) * 0x9E37'79B9'7F4A'7C15;
+        return mixed ^ mixed >> 32;
+    }
+    [[nodiscard]] std::size_t first_place(std::uint64_t mixed) const {
+        return static_cast<std::size_t>(mixed >> 32) & (slots_.size() - 1);
+    }
     void place(std::size_t entry);
     void grow();
 
@@ -57,17 +68,20 @@ Ref ContentTable::find_or_make(std::uint64_t hash,
                                Make make) {
     if (2 * (entries_.size() + 1) > slots_.size()) grow();
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = first_place(hash, kind);
+    const std::uint64_t mixed = mix(hash, kind);
+    const auto tag = static_cast<std::uint32_t>(mixed);
+    std::size_t at = first_place(mixed);
     for (std::size_t probe = 0; probe < kMaxProbes; ++probe, at = (at + 1) & mask) {
         const Slot slot = slots_[at];
-        if (slot == 0) {
+        if (slot.entry == 0) {
             const Ref made = make();
             if (made == kNoDetailRef) return made;
             entries_.push_back({hash, kind, made});
-            slots_[at] = static_cast<Slot>(entries_.size());
+            slots_[at] = {tag, static_cast<std::uint32_t>(entries_.size())};
             return made;
         }
-        const Entry& entry = entries_[slot - 1];
+        if (slot.tag != tag) continue;
+        const Entry& entry = entries_[slot.entry - 1];
         if (entry.hash == hash && entry.kind == kind && equal(entry.ref)) {
             return entry.ref;
         }

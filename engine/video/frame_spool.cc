@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -12,6 +13,9 @@ namespace {
 struct Head {
     std::uint64_t nodes = 0;
     std::uint64_t bricks = 0;
+    std::uint64_t nodes_offset = 0;
+    std::uint64_t bricks_offset = 0;
+    std::uint64_t checksum = 0;  // of nodes and bricks
     std::array<std::uint32_t, kEdges> root{};
     std::array<Apex, kEdges> apex{};
     Bounds bounds;
@@ -21,11 +25,11 @@ static_assert(std::has_unique_object_representations_v<Head>);
 static_assert(std::has_unique_object_representations_v<TreeNode>);
 static_assert(std::has_unique_object_representations_v<Brick>);
 
-std::uint64_t checksum_of(const std::vector<std::byte>& bytes) {
+std::uint64_t checksum_of(std::span<const std::byte> bytes, std::uint64_t seed) {
     constexpr std::uint64_t kOdd = 0x9E37'79B9'7F4A'7C15;
     constexpr std::size_t kLanes = 4;
     constexpr std::size_t kWord = sizeof(std::uint64_t);
-    std::array<std::uint64_t, kLanes> lane = {1, 2, 3, 4};
+    std::array<std::uint64_t, kLanes> lane = {seed, 2, 3, 4};
     const auto mix = [&bytes](std::uint64_t& into, std::size_t at, std::size_t size) {
         std::uint64_t word = 0;
         std::memcpy(&word, bytes.data() + at, size);
@@ -47,43 +51,57 @@ std::uint64_t checksum_of(const std::vector<std::byte>& bytes) {
     return sum;
 }
 
+std::uint64_t checksum_of(const ExactFrame& frame) {
+    return checksum_of(std::as_bytes(std::span(frame.bricks)),
+                       checksum_of(std::as_bytes(std::span(frame.nodes)), 1));
+}
+
+std::uint64_t checksum_of(const Head& head) {
+    return checksum_of(std::as_bytes(std::span(&head, 1)), 1);
+}
+
 }  // namespace
 
 Result<SpooledFrame> FrameSpool::put(const ExactFrame& frame) {
-    const Head head{
-        frame.nodes.size(), frame.bricks.size(), frame.root, frame.apex, frame.bounds};
-    const std::size_t node_bytes = frame.nodes.size() * sizeof(TreeNode);
-    const std::size_t brick_bytes = frame.bricks.size() * sizeof(Brick);
-    bytes_.resize(sizeof(Head) + node_bytes + brick_bytes);
-    std::memcpy(bytes_.data(), &head, sizeof(Head));
-    std::memcpy(bytes_.data() + sizeof(Head), frame.nodes.data(), node_bytes);
-    std::memcpy(
-        bytes_.data() + sizeof(Head) + node_bytes, frame.bricks.data(), brick_bytes);
-    const Result<std::uint64_t> offset = spool_.append(bytes_);
-    if (!offset) return offset.error();
-    return SpooledFrame{*offset, bytes_.size(), checksum_of(bytes_)};
+    const Result<std::uint64_t> nodes =
+        spool_.append(std::as_bytes(std::span(frame.nodes)));
+    if (!nodes) return nodes.error();
+    const Result<std::uint64_t> bricks =
+        spool_.append(std::as_bytes(std::span(frame.bricks)));
+    if (!bricks) return bricks.error();
+    const Head head{frame.nodes.size(),
+                    frame.bricks.size(),
+                    *nodes,
+                    *bricks,
+                    checksum_of(frame),
+                    frame.root,
+                    frame.apex,
+                    frame.bounds};
+    const Result<std::uint64_t> at = spool_.append(std::as_bytes(std::span(&head, 1)));
+    if (!at) return at.error();
+    return SpooledFrame{*at, checksum_of(head)};
 }
 
 Result<void> FrameSpool::get(const SpooledFrame& from, ExactFrame& frame) {
-    bytes_.resize(static_cast<std::size_t>(from.bytes));
-    Result<void> read = spool_.read(from.offset, bytes_);
-    if (!read) return read;
-    if (checksum_of(bytes_) != from.checksum) {
-        return Error{ErrorCode::kIo,
-                     "the spool has changed at offset " + std::to_string(from.offset)};
-    }
+    const Error changed{ErrorCode::kIo,
+                        "the spool has changed at offset " + std::to_string(from.head)};
     Head head;
-    std::memcpy(&head, bytes_.data(), sizeof(Head));
+    Result<void> read =
+        spool_.read(from.head, std::as_writable_bytes(std::span(&head, 1)));
+    if (!read) return read;
+    // The counts are believed, and memory taken for them, only after this.
+    if (checksum_of(head) != from.checksum) return changed;
     frame.nodes.resize(static_cast<std::size_t>(head.nodes));
     frame.bricks.resize(static_cast<std::size_t>(head.bricks));
     frame.root = head.root;
     frame.apex = head.apex;
     frame.bounds = head.bounds;
-    const std::size_t node_bytes = frame.nodes.size() * sizeof(TreeNode);
-    std::memcpy(frame.nodes.data(), bytes_.data() + sizeof(Head), node_bytes);
-    std::memcpy(frame.bricks.data(),
-                bytes_.data() + sizeof(Head) + node_bytes,
-                frame.bricks.size() * sizeof(Brick));
+    read = spool_.read(head.nodes_offset, std::as_writable_bytes(std::span(frame.nodes)));
+    if (!read) return read;
+    read =
+        spool_.read(head.bricks_offset, std::as_writable_bytes(std::span(frame.bricks)));
+    if (!read) return read;
+    if (checksum_of(frame) != head.checksum) return changed;
     return {};
 }
 

@@ -1,5 +1,5 @@
 // One bit for each pixel of a brick, and how bricks one level apart correspond.
-//   brick.h -> [pixel_mask.h] -> accounting.h
+//   brick.h -> [pixel_mask.h] -> brick_match.h, accounting.h
 //
 // Shape   64 bits: bit 8 y + x. 16 bits, of a quadrant: bit 4 y + x. Pixel (x, y) of a
 //         quadrant has the four pixels (2x, 2y) .. (2x + 1, 2y + 1) of the brick below it.
@@ -35,6 +35,9 @@ using QuadrantMask = std::uint16_t;
     bits = (bits | bits >> 2) & 0x000F'000F'000F'000F;
     bits = (bits | bits >> 12) & 0x0000'00FF'0000'00FF;
     return static_cast<QuadrantMask>(bits | bits >> 24);
+}
+[[nodiscard]] constexpr QuadrantMask any_of_four(PixelMask below) {
+    return static_cast<QuadrantMask>(~all_of_four(~below));
 }
 // Every bit of the parents, four times below.
 [[nodiscard]] constexpr PixelMask four_of_each(QuadrantMask above) {

@@ -27,8 +27,7 @@ std::uint64_t hash_of(const LinkedNode& node) {
 }  // namespace
 
 UpLinks::UpLinks(int space_levels, std::uint32_t delta, std::uint32_t max_index)
-    : space_layers_(static_cast<std::size_t>(std::max(space_levels, kBrickLevel) -
-                                             kBrickLevel + 1)),
+    : finest_(std::max(space_levels, kBrickLevel)),
       delta_(delta),
       max_index_(max_index),
       near_(chain_, delta) {
@@ -38,7 +37,7 @@ UpLinks::UpLinks(int space_levels, std::uint32_t delta, std::uint32_t max_index)
 void UpLinks::descend() {
     ++depth_;
     if (chain_.layers.size() < static_cast<std::size_t>(depth_)) {
-        chain_.layers.emplace_back(space_layers_);
+        chain_.layers.emplace_back(static_cast<std::size_t>(finest_ - kBrickLevel + 1));
     }
     marks_.push_back(table_.size());
 }
@@ -83,6 +82,12 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
     const TreeNode& exact = frame.nodes[index];
     const LinkedNode* const shown =
         above == kNoDetailRef ? nullptr : &chain_.node(level, above);
+    if (level == finest_) {
+        const Brick& brick = frame.bricks[exact.brick];
+        const bool linked =
+            shown != nullptr && within(brick, chain_.brick(level, shown->brick), delta_);
+        return resolved = linked ? above : own_finest(brick);
+    }
     LinkedNode made;
     made.brick = brick_for(frame.bricks[exact.brick], level, shown);
     if (made.brick == kNoDetailRef) return kNoDetailRef;
@@ -121,6 +126,22 @@ Ref UpLinks::own(const LinkedNode& node, int level) {
         node_kind(level),
         [&](Ref ref) { return node == chain_.node(level, ref); },
         [&] { return append(own_layer(level).nodes, node, level); });
+}
+
+Ref UpLinks::own_finest(const Brick& brick) {
+    return table_.find_or_make(
+        hash_of(brick),
+        node_kind(finest_),
+        [&](Ref ref) {
+            const Ref known = chain_.node(finest_, ref).brick;
+            return same_bytes(brick, chain_.brick(finest_, known));
+        },
+        [&] {
+            LinkedNode node;
+            node.brick = append(own_layer(finest_).bricks, brick, finest_);
+            if (node.brick == kNoDetailRef) return kNoDetailRef;
+            return append(own_layer(finest_).nodes, node, finest_);
+        });
 }
 
 template <typename T>

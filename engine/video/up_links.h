@@ -54,6 +54,8 @@ class UpLinks {
     Ref brick_for(const Brick& exact, int level, const LinkedNode* above);
     Ref own(const Brick& brick, int level);
     Ref own(const LinkedNode& node, int level);
+    // Of the finest level, where a node is its brick: one look-up instead of two.
+    Ref own_finest(const Brick& brick);
     template <typename T>
     Ref append(std::vector<T>& to, const T& what, int level);
     [[nodiscard]] Layer& own_layer(int level) {
@@ -61,7 +63,7 @@ class UpLinks {
                             [static_cast<std::size_t>(level - kBrickLevel)];
     }
 
-    std::size_t space_layers_;
+    int finest_;
     std::uint32_t delta_;
     std::uint32_t max_index_;
     int depth_ = 0;     // time levels begun

@@ -27,10 +27,11 @@ TEST(BrickMatch, WithinIsTheLargestDifferenceOfAnyPixel) {
         Brick b = a;
         for (int changes = 0; changes < 3; ++changes) {
             Rgba& pixel = b[random() % b.size()];
+            const auto more_alpha = round % 2 == 0 ? random() % 3 : 0;
             pixel = canonical({static_cast<std::uint8_t>(pixel.r + random() % 3),
                                pixel.g,
                                static_cast<std::uint8_t>(pixel.b + random() % 3),
-                               pixel.a});
+                               static_cast<std::uint8_t>(pixel.a + more_alpha)});
         }
         std::uint32_t largest = 0;
         for (std::size_t i = 0; i < a.size(); ++i) {
@@ -89,15 +90,30 @@ TEST(BrickMatch, AnEnlargedQuadrantRepeatsItsPixels) {
     }
 }
 
+TEST(BrickMatch, APixelIsRepeatedIfAllFourBelowAreIt) {
+    std::mt19937 random(5);
+    const Brick brick = random_brick(random);
+    for (int q = 0; q < 4; ++q) {
+        EXPECT_EQ(repeated_pixels(brick, q, enlarged_quadrant(brick, q)), 0xFFFF);
+        for (std::size_t i = 0; i < brick.size(); ++i) {
+            Brick below = enlarged_quadrant(brick, q);
+            below[i].b = static_cast<std::uint8_t>(below[i].b + 1);
+            const std::size_t above = i / 16 * 4 + i % 8 / 2;
+            EXPECT_EQ(repeated_pixels(brick, q, below), 0xFFFF & ~(1 << above));
+        }
+    }
+}
+
 TEST(BrickMatch, EqualPixelsAreBits) {
     std::mt19937 random(4);
     const Brick a = random_brick(random);
-    EXPECT_EQ(equal_pixels(a, a), ~std::uint64_t{0});
+    EXPECT_EQ(equal_pixels(a, a), ~PixelMask{0});
     Brick b = a;
-    std::uint64_t expected = ~std::uint64_t{0};
-    for (const std::size_t i : {0U, 7U, 8U, 31U, 32U, 63U}) {
+    PixelMask expected = ~PixelMask{0};
+    for (std::size_t step = 0; step < 40; ++step) {
+        const std::size_t i = 37 * step % 64;
         b[i].g = static_cast<std::uint8_t>(b[i].g + 1);
-        expected &= ~(std::uint64_t{1} << i);
+        expected &= ~(PixelMask{1} << i);
         EXPECT_EQ(equal_pixels(a, b), expected);
     }
 }

@@ -16,6 +16,7 @@ class FaultySpool final : public Spool {
     void flip(std::uint64_t offset) {
         bytes_[static_cast<std::size_t>(offset)] ^= std::byte{16};
     }
+    [[nodiscard]] std::uint64_t size() const { return bytes_.size(); }
     [[nodiscard]] std::int64_t calls() const { return calls_; }
     [[nodiscard]] std::int64_t appends() const { return appends_; }
 
@@ -30,7 +31,9 @@ class FaultySpool final : public Spool {
     [[nodiscard]] Result<void> read(std::uint64_t offset,
                                     std::span<std::byte> bytes) override {
         if (calls_++ == fail_at_) return fault();
-        std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
+        if (!bytes.empty()) {
+            std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
+        }
         return {};
     }
 

@@ -42,6 +42,7 @@ TEST(PixelMask, AParentHasWhatAllFourBelowHave) {
                               bit(below, 2 * x + 1, 2 * y, 8) &&
                               bit(below, 2 * x, 2 * y + 1, 8) &&
                               bit(below, 2 * x + 1, 2 * y + 1, 8));
+                EXPECT_EQ(bit(any_of_four(~below), x, y, 4), !bit(above, x, y, 4));
             }
         }
     }

@@ -17,6 +17,9 @@ using testing::picture_of;
 using testing::random_clip;
 using testing::RawClip;
 
+// Appends of one frame: nodes, bricks, head.
+constexpr std::int64_t kAppends = 3;
+
 // The clip with frame t shown repeats[t] times.
 RawClip repeated(const RawClip& clip, const std::vector<std::int64_t>& repeats) {
     RawClip longer;
@@ -103,7 +106,7 @@ TEST(TimeSums, ALongRunCostsItsLogarithm) {
     const std::int64_t run = (std::int64_t{1} << 28) - 3;
     const SpooledNodes nodes = sum_up(clip, {1, run}, spool);
     // Two frames, and the nodes on the way from the first one to the root that have both.
-    EXPECT_EQ(memory.appends(), 2 + 28);
+    EXPECT_EQ(memory.appends(), kAppends * (2 + 28));
     EXPECT_LE(nodes.size(), 2U * 28 + 1);
     EXPECT_TRUE(nodes.at(27, 1).uniform);
     EXPECT_FALSE(nodes.at(27, 0).uniform);
@@ -127,7 +130,7 @@ TEST(TimeSums, EqualFramesOfDifferentShapeAreOneFrame) {
     ASSERT_TRUE(sums.add(root_alone, 1).has_value());
     const Result<SpooledNodes> nodes = sums.finish();
     ASSERT_TRUE(nodes.has_value());
-    EXPECT_EQ(memory.appends(), 1);
+    EXPECT_EQ(memory.appends(), kAppends);
     EXPECT_TRUE((*nodes).at(1, 0).uniform);
 }
 
@@ -146,7 +149,7 @@ TEST(TimeSums, PassesOnWhatTheSpoolMeetsAtEveryCall) {
     };
     FaultySpool sound;
     ASSERT_TRUE(run(sound).has_value());
-    ASSERT_EQ(sound.calls(), 5 + 2 + 1 + 1);
+    ASSERT_EQ(sound.calls(), kAppends * (5 + 2 + 1 + 1));
     for (std::int64_t call = 0; call < sound.calls(); ++call) {
         FaultySpool faulty;
         faulty.fail_at(call);
