@@ -156,11 +156,14 @@ std::int64_t SegmentSearch::own_matches(std::size_t slot) const {
     std::size_t begin = view_->own_begin[slot];
     for (int c = 0; c < kChannels; ++c) {
         const auto& counts = view_->own_counts[slot][c];
-        const std::size_t end = begin + counts[tier_];
-        for (std::size_t i = begin; i < end; ++i) {
-            if (!exact_ && view_->own_ranks[i] >= query_->m) break;
-            matched += own_.of(coefficient_key(c, view_->own[i]));
+        std::size_t count = counts[tier_];
+        if (!exact_) {
+            // They are in falling order of magnitude.
+            const auto ranks = view_->own_ranks.subspan(begin, count);
+            const auto end = std::ranges::lower_bound(ranks, query_->m);
+            count = std::size_t(end - ranks.begin());
         }
+        matched += own_.sum(c, view_->own.subspan(begin, count));
         begin += counts[std::size_t(view_->tiers.top())];
     }
     return matched;

@@ -29,9 +29,7 @@ void Tail::score_all(const Query& query,
         for (int c = 0; c < kChannels; ++c) {
             const ChannelSignature& channel = record.signature.channels[c];
             average[c] = channel.average;
-            for (const std::int16_t signed_index : channel.largest(m)) {
-                matched += weights.of(coefficient_key(c, signed_index));
-            }
+            matched += weights.sum(c, channel.largest(m));
         }
         out.push_back({record.id, score(query, average, record.log_aspect, matched)});
     }

@@ -1,20 +1,45 @@
 // What a query's terms weigh, by key: for pictures that are compared one by one.
 //   query.h -> [term_weights.h] -> segment_search.h, tail.h
 //
-// Shape   a small hash table, and before it a bit map that most of what pictures have does
-//         not pass: 12 KB, where a weight for every key would be 384.
+// Shape   a small hash table, and before it what most of the coefficients that pictures have
+//         do not pass: for one of them a bit map, for many at once 256 bits for each
+//         channel, in which a coefficient must find two bits set. 12 KB, where a weight for
+//         every key would be 384.
 // Errors  none; a wrong shape is a caller's bug and asserts.
-// Threads const-thread-safe.
+// Threads const-thread-safe; the vector code is chosen once for the machine.
 // Source  sec. 4.3.2, Figure 4.2.
 #pragma once
 
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <span>
 
 #include "engine/image/query.h"
 
 namespace haarmony::image {
+
+// A set of signed indices of which some that are not in it pass, too. The bits of a byte: its
+// lower half chooses one of 16 rows, its upper half one of 16 columns, eight in each table.
+struct IndexSieve {
+    alignas(16) std::array<std::array<std::uint8_t, 16>, 2> columns{};
+
+    static constexpr std::uint16_t kFirstFactor = 0x9E37;
+    static constexpr std::uint16_t kSecondFactor = 0x6A6D;
+    // Odd or not, the upper byte of a product hangs on all bits of the index.
+    [[nodiscard]] static std::array<std::uint8_t, 2> bytes_of(std::int16_t signed_index) {
+        const auto bits = static_cast<std::uint16_t>(signed_index);
+        return {static_cast<std::uint8_t>(std::uint32_t{bits} * kFirstFactor >> 8),
+                static_cast<std::uint8_t>(std::uint32_t{bits} * kSecondFactor >> 8)};
+    }
+    void add(std::int16_t signed_index) {
+        for (const std::uint8_t byte : bytes_of(signed_index)) {
+            const int column = byte >> 4;
+            columns[std::size_t(column / 8)][byte & 15] |=
+                static_cast<std::uint8_t>(1U << (column % 8));
+        }
+    }
+};
 
 class TermWeights {
   public:
@@ -26,12 +51,25 @@ class TermWeights {
         while (keys_[at] != kFree && keys_[at] != key) at = (at + 1) % kSize;
         keys_[at] = key;
         weights_[at] += weight;
+        const auto index = static_cast<std::int16_t>(key % kCoefficientCount);
+        const bool negative = key / kCoefficientCount % 2 != 0;
+        sieves_[key / (2 * kCoefficientCount)].add(negative ? std::int16_t(-index)
+                                                            : index);
     }
 
     // 0 for a key that is none of the query's.
     [[nodiscard]] std::int32_t of(std::uint32_t key) const {
         return (seen_[key % kSeen / 64] >> (key % 64) & 1U) != 0 ? look_up(key) : 0;
     }
+
+    // What all of these coefficients of a channel weigh. Requires: 0 <= channel < kChannels.
+    [[nodiscard]] std::int64_t sum(int channel,
+                                   std::span<const std::int16_t> signed_indices) const;
+
+    // The same, one by one: the scalar twin of the vector code.
+    [[nodiscard]] std::int64_t sum_scalar(
+        int channel,
+        std::span<const std::int16_t> signed_indices) const;
 
   private:
     [[nodiscard]] std::int32_t look_up(std::uint32_t key) const {
@@ -46,6 +84,7 @@ class TermWeights {
     static constexpr std::size_t kSize = std::size_t{1} << 10;
     static_assert(kSize > 3 * kChannels * kMaxCoefficients);
     static constexpr std::uint32_t kFree = 0;
+    std::array<IndexSieve, kChannels> sieves_{};
     std::array<std::uint64_t, kSeen / 64> seen_{};
     std::array<std::uint32_t, kSize> keys_{};
     std::array<std::int32_t, kSize> weights_{};
