@@ -25,6 +25,18 @@ BlockBits existing(int slots, int block) {
     return bits;
 }
 
+std::size_t count_bits(const BlockBits& bits) {
+    std::size_t count = 0;
+    for (const std::uint64_t word : bits) count += std::size_t(std::popcount(word));
+    return count;
+}
+
+// From so many sums of a block on, all are unpacked at once: it takes as long as to read that
+// many bit by bit.
+constexpr std::size_t kUnpackedFrom = 8;
+// Candidates that are compared in the order of their bounds.
+constexpr std::size_t kSortedCandidates = 32;
+
 // Calls visit(slot within the block) for each bit.
 template <typename Visit>
 void for_each_bit(const BlockBits& bits, const Visit& visit) {
@@ -259,14 +271,26 @@ void Visitor::reach(int first, int block) {
     const BlockBits allowed = search_.allowed_in(block);
     for (int word = 0; word < kBlockWords; ++word) bits[word] &= allowed[word];
     const SegmentView& view = *search_.view_;
-    for_each_bit(bits, [&](std::uint32_t in_block) {
-        const auto slot = static_cast<std::uint32_t>(block) * kBlockSlots + in_block;
-        hwy::Prefetch(&view.terms[slot]);
-        hwy::Prefetch(&view.own_begin[slot]);
-        hwy::Prefetch(&view.own_counts[slot]);
-        const int in_sums = (block - first) * kBlockSlots + int(in_block);
-        reached_.push_back({slot, sums_.at(in_sums, planes)});
-    });
+    const auto reach_with = [&](const auto& units_of) {
+        for_each_bit(bits, [&](std::uint32_t in_block) {
+            const auto slot = static_cast<std::uint32_t>(block) * kBlockSlots + in_block;
+            hwy::Prefetch(&view.terms[slot]);
+            hwy::Prefetch(&view.own_begin[slot]);
+            hwy::Prefetch(&view.own_counts[slot]);
+            reached_.push_back({slot, units_of(in_block)});
+        });
+    };
+    const std::size_t count = count_bits(bits);
+    if (count >= kUnpackedFrom) {
+        UnpackedSums units;
+        unpack(sums_, planes, block - first, units);
+        reach_with(
+            [&](std::uint32_t in_block) -> std::uint32_t { return units[in_block]; });
+    } else if (count != 0) {
+        reach_with([&](std::uint32_t in_block) {
+            return sums_.at((block - first) * kBlockSlots + int(in_block), planes);
+        });
+    }
 }
 
 // Of these, the pictures that may be among the best if one knows their averages.
@@ -286,12 +310,17 @@ void Visitor::judge_reached() {
     reached_.clear();
 }
 
-// The most promising first, so that the others need not be looked at.
+// The most promising first, so that the others need not be looked at. Where there are many,
+// it does not matter in which order the rest is.
 void Visitor::compare_candidates() {
-    std::ranges::sort(candidates_, {}, &Candidate::bound);
+    const auto sorted_end =
+        candidates_.begin() +
+        std::ptrdiff_t(std::min(candidates_.size(), kSortedCandidates));
+    if (sorted_end != candidates_.end())
+        std::ranges::nth_element(candidates_, sorted_end, {}, &Candidate::bound);
+    std::ranges::sort(candidates_.begin(), sorted_end, {}, &Candidate::bound);
     for (const Candidate& candidate : candidates_) {
-        if (candidate.bound > worst_.get()) break;
-        compare(candidate);
+        if (candidate.bound <= worst_.get()) compare(candidate);
     }
     candidates_.clear();
 }

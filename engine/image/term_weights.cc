@@ -32,25 +32,34 @@ template <class D>
 HWY_INLINE std::uint64_t Passing(D d, const IndexSieve& sieve, const std::int16_t* at) {
     const hn::RebindToUnsigned<D> d16;
     const hn::Repartition<std::uint8_t, D> d8;
-    alignas(16) static constexpr std::uint8_t kBit[2][16] = {
-        {1, 2, 4, 8, 16, 32, 64, 128},
-        {0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 4, 8, 16, 32, 64, 128}};
+    alignas(16) static constexpr std::array<IndexSieve::Table, 2> kBit = {
+        {{1, 2, 4, 8, 16, 32, 64, 128},
+         {0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 4, 8, 16, 32, 64, 128}}};
     const auto index = hn::BitCast(d16, hn::LoadU(d, at));
-    const auto first = hn::Mul(index, hn::Set(d16, IndexSieve::kFirstFactor));
-    const auto second = hn::Mul(index, hn::Set(d16, IndexSieve::kSecondFactor));
-    const auto bytes =
-        hn::Or(hn::ShiftRight<8>(first), hn::And(second, hn::Set(d16, 0xFF00)));
-    const auto half = hn::Set(d16, 0x0F0F);
-    const auto row = hn::BitCast(d8, hn::And(bytes, half));
-    const auto column = hn::BitCast(d8, hn::And(hn::ShiftRight<4>(bytes), half));
-    const auto look_up = [&](const std::uint8_t* table, auto place) HWY_ATTR {
-        return hn::TableLookupBytes(hn::LoadDup128(d8, table), place);
+    const auto product = [&](std::size_t i) HWY_ATTR {
+        return hn::Mul(index, hn::Set(d16, IndexSieve::kFactors[i]));
     };
-    const auto lower =
-        hn::And(look_up(sieve.columns[0].data(), row), look_up(kBit[0], column));
-    const auto upper =
-        hn::And(look_up(sieve.columns[1].data(), row), look_up(kBit[1], column));
-    const auto absent = hn::Eq(hn::Or(lower, upper), hn::Zero(d8));
+    // The first byte is the lower one of its lane, the second the upper.
+    const auto upper_byte = hn::Set(d16, std::uint16_t{0xFF00});
+    const auto bytes =
+        hn::Or(hn::ShiftRight<8>(product(0)), hn::And(product(1), upper_byte));
+    const auto half = hn::Set(d16, std::uint16_t{0x0F0F});
+    const auto row = hn::And(bytes, half);
+    const auto column = hn::BitCast(d8, hn::And(hn::ShiftRight<4>(bytes), half));
+    const auto look_up = [&](const auto& table, auto place) HWY_ATTR {
+        return hn::TableLookupBytesOr0(hn::LoadDup128(d8, table.data()), place);
+    };
+    // What belongs to the other byte's tables is out of range, and gives 0.
+    const auto first_row =
+        hn::BitCast(d8, hn::Or(row, hn::Set(d16, std::uint16_t{0x8000})));
+    const auto second_row =
+        hn::BitCast(d8, hn::Or(row, hn::Set(d16, std::uint16_t{0x0080})));
+    const auto columns_of = [&](std::size_t part) HWY_ATTR {
+        const auto its_columns = hn::Or(look_up(sieve.tables[0][part], first_row),
+                                        look_up(sieve.tables[1][part], second_row));
+        return hn::And(its_columns, look_up(kBit[part], column));
+    };
+    const auto absent = hn::Eq(hn::Or(columns_of(0), columns_of(1)), hn::Zero(d8));
     const auto any_absent = hn::BitCast(d16, hn::VecFromMask(d8, absent));
     std::uint64_t bits = 0;
     std::uint8_t stored[8] = {};
@@ -107,7 +116,7 @@ std::int64_t TermWeights::sum(int channel,
         for (; passing != 0; passing &= passing - 1) {
             const std::int16_t index =
                 signed_indices[std::size_t(std::countr_zero(passing))];
-            sum += of(coefficient_key(channel, index));
+            sum += look_up(coefficient_key(channel, index));
         }
         signed_indices = signed_indices.subspan(count);
     }

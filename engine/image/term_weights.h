@@ -19,24 +19,22 @@
 
 namespace haarmony::image {
 
-// A set of signed indices of which some that are not in it pass, too. The bits of a byte: its
-// lower half chooses one of 16 rows, its upper half one of 16 columns, eight in each table.
+// A set of signed indices of which some that are not in it pass, too. Two bytes are made of an
+// index, and each must be in a set of its own: its lower half chooses one of 16 rows, its
+// upper half one of 16 columns, eight of them in each of two tables.
 struct IndexSieve {
-    alignas(16) std::array<std::array<std::uint8_t, 16>, 2> columns{};
+    using Table = std::array<std::uint8_t, 16>;
+    alignas(16) std::array<std::array<Table, 2>, 2> tables{};  // [byte][column / 8][row]
 
-    static constexpr std::uint16_t kFirstFactor = 0x9E37;
-    static constexpr std::uint16_t kSecondFactor = 0x6A6D;
-    // Odd or not, the upper byte of a product hangs on all bits of the index.
-    [[nodiscard]] static std::array<std::uint8_t, 2> bytes_of(std::int16_t signed_index) {
-        const auto bits = static_cast<std::uint16_t>(signed_index);
-        return {static_cast<std::uint8_t>(std::uint32_t{bits} * kFirstFactor >> 8),
-                static_cast<std::uint8_t>(std::uint32_t{bits} * kSecondFactor >> 8)};
-    }
+    // The upper byte of a product hangs on all bits of the index.
+    static constexpr std::array<std::uint16_t, 2> kFactors = {0x9E37, 0x6A6D};
+
     void add(std::int16_t signed_index) {
-        for (const std::uint8_t byte : bytes_of(signed_index)) {
-            const int column = byte >> 4;
-            columns[std::size_t(column / 8)][byte & 15] |=
-                static_cast<std::uint8_t>(1U << (column % 8));
+        const std::uint32_t bits = static_cast<std::uint16_t>(signed_index);
+        for (std::size_t i = 0; i < kFactors.size(); ++i) {
+            const std::uint32_t byte = bits * kFactors[i] >> 8 & 0xFFU;
+            tables[i][byte >> 7][byte & 15U] |=
+                static_cast<std::uint8_t>(1U << (byte >> 4 & 7U));
         }
     }
 };
@@ -48,9 +46,10 @@ class TermWeights {
         assert(key % kCoefficientCount != 0);
         seen_[key % kSeen / 64] |= std::uint64_t{1} << (key % 64);
         std::size_t at = place(key);
-        while (keys_[at] != kFree && keys_[at] != key) at = (at + 1) % kSize;
-        keys_[at] = key;
-        weights_[at] += weight;
+        while (entries_[at].key != kFree && entries_[at].key != key)
+            at = (at + 1) % kSize;
+        entries_[at].key = key;
+        entries_[at].weight += weight;
         const auto index = static_cast<std::int16_t>(key % kCoefficientCount);
         const bool negative = key / kCoefficientCount % 2 != 0;
         sieves_[key / (2 * kCoefficientCount)].add(negative ? std::int16_t(-index)
@@ -72,10 +71,16 @@ class TermWeights {
         std::span<const std::int16_t> signed_indices) const;
 
   private:
+    static constexpr std::uint32_t kFree = 0;  // an average's
+    struct Entry {
+        std::uint32_t key = kFree;
+        std::int32_t weight = 0;
+    };
+
     [[nodiscard]] std::int32_t look_up(std::uint32_t key) const {
         for (std::size_t at = place(key);; at = (at + 1) % kSize) {
-            if (keys_[at] == key) return weights_[at];
-            if (keys_[at] == kFree) return 0;
+            if (entries_[at].key == key) return entries_[at].weight;
+            if (entries_[at].key == kFree) return 0;
         }
     }
     static std::size_t place(std::uint32_t key) { return (key * 0x9E3779B1U) >> 22; }
@@ -83,11 +88,9 @@ class TermWeights {
     static constexpr std::size_t kSeen = std::size_t{1} << 15;
     static constexpr std::size_t kSize = std::size_t{1} << 10;
     static_assert(kSize > 3 * kChannels * kMaxCoefficients);
-    static constexpr std::uint32_t kFree = 0;
     std::array<IndexSieve, kChannels> sieves_{};
     std::array<std::uint64_t, kSeen / 64> seen_{};
-    std::array<std::uint32_t, kSize> keys_{};
-    std::array<std::int32_t, kSize> weights_{};
+    std::array<Entry, kSize> entries_{};
 };
 
 }  // namespace haarmony::image

@@ -4,22 +4,58 @@
 #include <string>
 
 #include "tests/bench/http/synthetic_rows.h"
+#include "tests/eval/packed_signature.h"
+#include "tests/eval/signature_cache.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+using namespace haarmony;
+
+struct Options {
     std::string database;
+    std::string signatures;  // a cache; empty for noise
     std::int64_t images = 20'000;
     unsigned seed = 1;
+};
+
+Result<void> write(const Options& options) {
+    if (options.signatures.empty()) {
+        return bench::write_rows(options.database, options.images, [&](std::int64_t n) {
+            return bench::synthetic_signature(options.seed, n);
+        });
+    }
+    const auto cache = eval::read_signature_cache(options.signatures);
+    if (!cache) return cache.error();
+    if (cache->size() < options.images) {
+        return Error{ErrorCode::kInvalidArgument,
+                     options.signatures + ": " + std::to_string(cache->size()) +
+                         " pictures, not " + std::to_string(options.images)};
+    }
+    return bench::write_rows(options.database, options.images, [&](std::int64_t n) {
+        return eval::unpack(cache->signatures[std::size_t(n - 1)]);
+    });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
     CLI::App app("Writes rows with synthetic signatures into a Haarmony database.");
-    app.add_option("--db", database, "the database; created where it is absent")
+    app.add_option("--db", options.database, "the database; created where it is absent")
         ->required();
-    app.add_option("--images", images, "rows to add")
+    app.add_option("--images", options.images, "rows to add")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    app.add_option("--seed", seed, "of the signatures")->capture_default_str();
+    auto* const seed =
+        app.add_option("--seed", options.seed, "of signatures without any likeness")
+            ->capture_default_str();
+    app.add_option("--signatures",
+                   options.signatures,
+                   "those of pictures instead: a file of haarmony-eval speed --cache")
+        ->excludes(seed);
     CLI11_PARSE(app, argc, argv);
 
-    const haarmony::Result<void> written =
-        haarmony::bench::write_rows(database, images, seed);
+    const Result<void> written = write(options);
     if (written) return 0;
     std::cerr << "haarmony-bench-database: " << written.error().message << '\n';
     return 1;

@@ -51,7 +51,7 @@ image::Signature synthetic_signature(unsigned seed, std::int64_t number) {
     return signature;
 }
 
-schema::NewImage synthetic_row(unsigned seed, std::int64_t number) {
+schema::NewImage synthetic_row(std::int64_t number, const image::Signature& signature) {
     schema::NewImage row;
     row.origin = schema::ImageOrigin::kFile;
     row.uri = "file:///synthetic/" + std::to_string(number % 1000) + "/" +
@@ -60,11 +60,13 @@ schema::NewImage synthetic_row(unsigned seed, std::int64_t number) {
     row.width = 1024;
     row.height = 768;
     row.media_type = "image/jpeg";
-    row.signature = image::encode_signature(synthetic_signature(seed, number));
+    row.signature = image::encode_signature(signature);
     return row;
 }
 
-Result<void> write_rows(const std::string& database, std::int64_t images, unsigned seed) {
+Result<void> write_rows(const std::string& database,
+                        std::int64_t images,
+                        const SignatureOf& signature_of) {
     auto opened =
         schema::Database::open(database, schema::Database::Mode::kReadWriteCreate);
     if (!opened) return std::move(opened).error();
@@ -73,7 +75,7 @@ Result<void> write_rows(const std::string& database, std::int64_t images, unsign
         const std::int64_t last = std::min(images, first + kRowsInACommit - 1);
         const Result<void> written = store.transaction([&]() -> Result<void> {
             for (std::int64_t number = first; number <= last; ++number) {
-                const auto id = store.add(synthetic_row(seed, number));
+                const auto id = store.add(synthetic_row(number, signature_of(number)));
                 if (!id) return id.error();
             }
             return {};

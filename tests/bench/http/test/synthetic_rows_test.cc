@@ -46,7 +46,10 @@ TEST(SyntheticRows, CoarseCoefficientsAreMoreCommonThanFineOnes) {
 
 TEST(SyntheticRows, AreWrittenWithIdsFromOneOn) {
     const schema::ScratchFolder folder;
-    ASSERT_TRUE(write_rows(folder.file("rows.db"), 25, 1));
+    const auto of_seed_1 = [](std::int64_t number) {
+        return synthetic_signature(1, number);
+    };
+    ASSERT_TRUE(write_rows(folder.file("rows.db"), 25, of_seed_1));
     auto database =
         schema::Database::open(folder.file("rows.db"), schema::Database::Mode::kReadOnly);
     ASSERT_TRUE(database);
@@ -65,7 +68,8 @@ TEST(SyntheticRows, AreWrittenWithIdsFromOneOn) {
 }
 
 TEST(SyntheticRows, ADatabaseThatCannotBeWrittenIsAnErrorWithItsPath) {
-    const auto written = write_rows("/nowhere/rows.db", 1, 1);
+    const auto written = write_rows(
+        "/nowhere/rows.db", 1, [](std::int64_t) { return image::Signature{}; });
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("/nowhere/rows.db"), std::string::npos);
 }
