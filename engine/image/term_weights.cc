@@ -18,11 +18,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Without vectors nothing is gained over a look at each.
-std::uint64_t FindPassing(const IndexSieve& /*sieve*/,
-                          const std::int16_t* /*at*/,
+std::uint64_t FindPassing(const IndexSieve& sieve,
+                          const std::int16_t* at,
                           std::size_t count) {
-    return ~std::uint64_t{0} >> (64 - count);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        bits |= std::uint64_t{sieve.may_have(at[i])} << i;
+    return bits;
 }
 
 #else
@@ -94,7 +96,7 @@ std::uint64_t FindPassing(const IndexSieve& sieve,
     return (std::uint64_t{1} << count) - 1;
 }
 
-#endif
+#endif  // HWY_SCALAR
 
 }  // namespace
 }  // namespace haarmony::image::HWY_NAMESPACE

@@ -30,12 +30,29 @@ struct IndexSieve {
     static constexpr std::array<std::uint16_t, 2> kFactors = {0x9E37, 0x6A6D};
 
     void add(std::int16_t signed_index) {
-        const std::uint32_t bits = static_cast<std::uint16_t>(signed_index);
         for (std::size_t i = 0; i < kFactors.size(); ++i) {
-            const std::uint32_t byte = bits * kFactors[i] >> 8 & 0xFFU;
-            tables[i][byte >> 7][byte & 15U] |=
-                static_cast<std::uint8_t>(1U << (byte >> 4 & 7U));
+            const Place place = place_of(signed_index, i);
+            tables[i][place.table][place.row] |= place.bit;
         }
+    }
+    [[nodiscard]] bool may_have(std::int16_t signed_index) const {
+        const auto has = [&](std::size_t i) {
+            const Place place = place_of(signed_index, i);
+            return (tables[i][place.table][place.row] & place.bit) != 0;
+        };
+        return has(0) && has(1);
+    }
+
+  private:
+    struct Place {
+        std::size_t table = 0;
+        std::size_t row = 0;
+        std::uint8_t bit = 0;
+    };
+    static Place place_of(std::int16_t signed_index, std::size_t i) {
+        const std::uint32_t bits = static_cast<std::uint16_t>(signed_index);
+        const std::uint32_t byte = bits * kFactors[i] >> 8 & 0xFFU;
+        return {byte >> 7, byte & 15U, static_cast<std::uint8_t>(1U << (byte >> 4 & 7U))};
     }
 };
 

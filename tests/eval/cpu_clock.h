@@ -5,6 +5,7 @@
 #pragma once
 
 #include <ctime>
+#include <functional>
 
 namespace haarmony::eval {
 
@@ -13,6 +14,13 @@ namespace haarmony::eval {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) * 1e3 +
            static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// How long `work` runs.
+[[nodiscard]] inline double cpu_ms_of(const std::function<void()>& work) {
+    const double begin = thread_cpu_ms();
+    work();
+    return thread_cpu_ms() - begin;
 }
 
 }  // namespace haarmony::eval

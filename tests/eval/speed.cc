@@ -19,7 +19,7 @@
 #include "tests/eval/memory_bandwidth.h"
 #include "tests/eval/plain_search.h"
 #include "tests/eval/printed_times.h"
-#include "tests/eval/signature_cache.h"
+#include "tests/eval/speed_collection.h"
 
 namespace haarmony::eval {
 namespace {
@@ -40,48 +40,6 @@ constexpr std::array kCases = {Case{20, "scanned"},
 constexpr std::array kRules = {image::BinRule::kLiteral,
                                image::BinRule::kLog2Plus1,
                                image::BinRule::kLinear};
-
-Result<SmallPhotos> photos_of(const SpeedOptions& options, Executor& executor) {
-    if (options.photos.empty())
-        return paint_small_photos(options.generated_photos, executor);
-    const auto source = folder_source(options.photos);
-    if (!source) return source.error();
-    auto photos = load_small_photos(*source, executor);
-    if (photos && photos->pictures.size() < 2) {
-        return Error{ErrorCode::kInvalidArgument,
-                     options.photos + ": one picture; two are the least"};
-    }
-    return photos;
-}
-
-// From the cache where it holds what is asked for, else made, and kept in it.
-Result<SyntheticCollection> collection_of(const SpeedOptions& options,
-                                          const SmallPhotos& photos,
-                                          Executor& executor,
-                                          const Progress& progress) {
-    const std::int64_t images = options.images.back();
-    const auto make = [&](int queries) {
-        progress("making " + std::to_string(images) + " pictures");
-        return make_synthetic_collection(
-            photos, {options.seed, images, queries}, executor);
-    };
-    if (options.cache.empty()) return make(options.queries);
-    auto cached = read_collection_cache(options.cache, images);
-    const auto queries = static_cast<std::size_t>(options.queries);
-    if (!cached) {
-        progress(cached.error().message);
-    } else if (cached->seed != options.seed || cached->source_digest != photos.digest ||
-               cached->queries.front().size() < queries) {
-        progress(options.cache + ": of another seed, of other photos or too few queries");
-    } else {
-        return cached;
-    }
-    SyntheticCollection made = make(static_cast<int>(
-        std::min<std::int64_t>(kMostSpeedQueries, options.images.front())));
-    const auto written = write_collection_cache(made, options.cache);
-    if (!written) return written.error();
-    return made;
-}
 
 void measure_popularity(const SmallPhotos& photos,
                         const SyntheticCollection& collection,
@@ -376,7 +334,7 @@ Result<SpeedReport> measure_speed(const SpeedOptions& options,
     assert(!options.images.empty() && std::ranges::is_sorted(options.images));
     assert(options.queries >= 1 && options.queries <= kMostSpeedQueries);
     assert(options.images.front() >= options.queries);
-    const auto photos = photos_of(options, executor);
+    const auto photos = speed_photos(options, executor);
     if (!photos) return photos.error();
     SpeedReport report;
     report.seed = options.seed;
@@ -388,7 +346,7 @@ Result<SpeedReport> measure_speed(const SpeedOptions& options,
         if (!table) return table.error();
         report.table_4_2 = std::move(*table);
     }
-    const auto collection = collection_of(options, *photos, executor, progress);
+    const auto collection = speed_collection(options, *photos, executor, progress);
     if (!collection) return collection.error();
     progress("popularity of lists");
     measure_popularity(*photos, *collection, executor, report);

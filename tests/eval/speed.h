@@ -63,6 +63,15 @@ struct SpeedRow {
     TimeSummary scan;
     std::int64_t scan_bytes = 0;
     std::int64_t mismatches = 0;
+
+    [[nodiscard]] double per_query(std::int64_t sum) const {
+        return static_cast<double>(sum) / queries;
+    }
+    [[nodiscard]] double visited_percent() const {
+        return effort.blocks == 0
+                   ? 0.0
+                   : 100 * double(effort.blocks_visited) / double(effort.blocks);
+    }
 };
 
 struct BruteForceRow {
@@ -97,6 +106,11 @@ struct SpeedReport {
     Table42 table_4_2;  // no rows where all sizes are smaller than its larger one
 
     [[nodiscard]] std::int64_t mismatches() const;
+    // How long memory needs for what the scan of a query has to read; 0 for a small
+    // collection, all of which is in the tail.
+    [[nodiscard]] double memory_ms(const SpeedRow& row) const {
+        return row.per_query(row.scan_bytes) / bytes_per_second * 1e3;
+    }
 };
 
 // How many answers are not exactly the expected matches, ids, order and scores, or did not

@@ -1,34 +1,19 @@
 #include "tests/eval/speed_report.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <string_view>
 #include <utility>
 
 #include "tests/eval/metric_style.h"
 #include "tests/eval/page.h"
 #include "tests/eval/printed_times.h"
+#include "tests/eval/speed_csv.h"
 #include "tests/eval/text_table.h"
 
 namespace haarmony::eval {
 namespace {
 
-std::string rule_name(image::BinRule rule) {
-    return std::string(image::bin_rule_name(rule));
-}
-
 std::string milliseconds(double ms) { return number(ms, 4); }
-
-const SizeRow& size_of(const SpeedReport& report, std::int64_t images) {
-    return *std::ranges::find(report.sizes, images, &SizeRow::images);
-}
-
-double plain_bytes(const SpeedReport& report, std::int64_t images, int m) {
-    const auto& by_m = size_of(report, images).plain_bytes_per_image;
-    return std::ranges::find(by_m, m, &std::pair<int, double>::first)->second;
-}
 
 std::string spread(const RatioSummary& ratio) {
     return number(ratio.lower_quartile, 1) + " to " + number(ratio.upper_quartile, 1);
@@ -80,7 +65,7 @@ TextTable times_table(const SpeedReport& report) {
                     3);
     for (const SpeedRow& row : report.rows) {
         table.add({row.profile,
-                   rule_name(row.bin_rule),
+                   std::string(image::bin_rule_name(row.bin_rule)),
                    synthetic_kind_name(row.kind),
                    std::to_string(row.images),
                    std::to_string(row.m),
@@ -98,22 +83,6 @@ TextTable times_table(const SpeedReport& report) {
     return table;
 }
 
-double visited_percent(const SpeedRow& row) {
-    return row.effort.blocks == 0
-               ? 0.0
-               : 100 * double(row.effort.blocks_visited) / double(row.effort.blocks);
-}
-
-double per_query(std::int64_t sum, const SpeedRow& row) {
-    return static_cast<double>(sum) / row.queries;
-}
-
-// How long memory needs for what the scan of a query has to read; 0 for a small collection,
-// all of which is in the tail.
-double bound_ms(const SpeedReport& report, const SpeedRow& row) {
-    return per_query(row.scan_bytes, row) / report.bytes_per_second * 1e3;
-}
-
 TextTable effort_table(const SpeedReport& report) {
     TextTable table({"profile",
                      "bins",
@@ -127,16 +96,16 @@ TextTable effort_table(const SpeedReport& report) {
                      "of the memory's time"},
                     3);
     for (const SpeedRow& row : report.rows) {
-        const double bound = bound_ms(report, row);
+        const double bound = report.memory_ms(row);
         table.add({row.profile,
-                   rule_name(row.bin_rule),
+                   std::string(image::bin_rule_name(row.bin_rule)),
                    synthetic_kind_name(row.kind),
                    std::to_string(row.images),
                    std::to_string(row.m),
-                   number(visited_percent(row), 1),
-                   number(per_query(row.effort.compared, row), 0),
+                   number(row.visited_percent(), 1),
+                   number(row.per_query(row.effort.compared), 0),
                    milliseconds(row.scan.median_ms),
-                   number(per_query(row.scan_bytes, row) / double(row.images), 1),
+                   number(row.per_query(row.scan_bytes) / double(row.images), 1),
                    bound == 0.0 ? "" : number(row.scan.median_ms / bound, 2)});
     }
     return table;
@@ -237,160 +206,6 @@ std::string to_text(const SpeedReport& report) {
     if (!report.table_4_2.rows.empty())
         text += dissertation_table(report.table_4_2).text() + '\n';
     return text + summary(report) + '\n';
-}
-
-CsvTable speed_csv(const SpeedReport& report) {
-    CsvTable csv({"metric",
-                  "resolution",
-                  "algorithm",
-                  "images",
-                  "m",
-                  "profile",
-                  "bin_rule",
-                  "query",
-                  "queries",
-                  "median_ms",
-                  "p90_ms",
-                  "max_ms",
-                  "plain_ratio",
-                  "plain_ratio_deviation",
-                  "plain_ratio_lower_quartile",
-                  "plain_ratio_upper_quartile",
-                  "bytes_per_image",
-                  "mismatches"});
-    for (const SpeedRow& row : report.rows) {
-        const std::string m = std::to_string(row.m);
-        const auto add = [&](const char* algorithm,
-                             const TimeSummary& times,
-                             const std::array<CsvCell, 4>& ratio,
-                             double bytes,
-                             const CsvCell& mismatches) {
-            csv.add({"L^q",
-                     "m=" + m,
-                     algorithm,
-                     row.images,
-                     row.m,
-                     row.profile,
-                     rule_name(row.bin_rule),
-                     synthetic_kind_name(row.kind),
-                     row.queries,
-                     times.median_ms,
-                     times.p90_ms,
-                     times.largest_ms,
-                     ratio[0],
-                     ratio[1],
-                     ratio[2],
-                     ratio[3],
-                     bytes,
-                     mismatches});
-        };
-        add("plain",
-            row.times.first,
-            {"", "", "", ""},
-            plain_bytes(report, row.images, row.m),
-            "");
-        const RatioSummary& ratio = row.times.ratio;
-        add("index",
-            row.times.second,
-            {ratio.median, ratio.deviation, ratio.lower_quartile, ratio.upper_quartile},
-            size_of(report, row.images).index_bytes_per_image,
-            row.mismatches);
-    }
-    for (const BruteForceRow& row : report.brute_force) {
-        csv.add({row.name.metric,
-                 row.name.resolution,
-                 "brute force",
-                 row.images,
-                 "",
-                 "",
-                 "",
-                 synthetic_kind_name(SyntheticKind::kNear),
-                 row.queries,
-                 row.times.median_ms,
-                 row.times.p90_ms,
-                 row.times.largest_ms,
-                 "",
-                 "",
-                 "",
-                 "",
-                 row.bytes_per_image,
-                 ""});
-    }
-    return csv;
-}
-
-CsvTable popularity_csv(const SpeedReport& report) {
-    CsvTable csv({"query",
-                  "m",
-                  "non_empty_lists",
-                  "hits_per_image",
-                  "median_density",
-                  "p90_density",
-                  "max_density",
-                  "popular_lists",
-                  "popular_share"});
-    const auto add = [&](const std::string& name, const ListPopularity& p) {
-        csv.add({name,
-                 p.m,
-                 p.non_empty_lists,
-                 p.hits_per_picture,
-                 p.median_density,
-                 p.p90_density,
-                 p.largest_density,
-                 p.popular_lists,
-                 p.popular_share});
-    };
-    for (const ListPopularity& p : report.photos) add("the photos themselves", p);
-    for (const auto& [kind, p] : report.synthetic) add(synthetic_kind_name(kind), p);
-    return csv;
-}
-
-CsvTable effort_csv(const SpeedReport& report) {
-    CsvTable csv({"profile",
-                  "bin_rule",
-                  "query",
-                  "images",
-                  "m",
-                  "blocks_visited_percent",
-                  "compared",
-                  "scan_ms",
-                  "scan_bytes_per_image",
-                  "memory_ms"});
-    for (const SpeedRow& row : report.rows) {
-        csv.add({row.profile,
-                 rule_name(row.bin_rule),
-                 synthetic_kind_name(row.kind),
-                 row.images,
-                 row.m,
-                 visited_percent(row),
-                 per_query(row.effort.compared, row),
-                 row.scan.median_ms,
-                 per_query(row.scan_bytes, row) / double(row.images),
-                 bound_ms(report, row)});
-    }
-    return csv;
-}
-
-CsvTable cores_csv(const SpeedReport& report) {
-    CsvTable csv({"images", "threads", "queries_per_second", "alone_ms"});
-    for (const CoresRow& row : report.cores)
-        csv.add({row.images, row.threads, row.queries_per_second, row.alone_ms});
-    return csv;
-}
-
-CsvTable size_csv(const SpeedReport& report) {
-    CsvTable csv({"images", "algorithm", "m", "bytes_per_image", "segments", "build_s"});
-    for (const SizeRow& row : report.sizes) {
-        csv.add({row.images,
-                 "index",
-                 kPackedCoefficients,
-                 row.index_bytes_per_image,
-                 row.segments,
-                 row.build_s});
-        for (const auto& [m, bytes] : row.plain_bytes_per_image)
-            csv.add({row.images, "plain", m, bytes, "", ""});
-    }
-    return csv;
 }
 
 Plot speed_plot(const SpeedReport& report) {

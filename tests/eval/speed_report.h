@@ -1,13 +1,9 @@
-// A speed run as text, tables, a plot and a page.
-//
-// Shape   speed.csv has one row for each way of searching, size, m, bin rule and kind of
-//         query; where a column means nothing to a row, its cell is empty.
+// A speed run as text, a plot and a page.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "tests/eval/csv.h"
 #include "tests/eval/figures.h"
 #include "tests/eval/plot_svg.h"
 #include "tests/eval/speed.h"
@@ -15,10 +11,6 @@
 namespace haarmony::eval {
 
 [[nodiscard]] std::string to_text(const SpeedReport& report);
-
-[[nodiscard]] CsvTable speed_csv(const SpeedReport& report);
-[[nodiscard]] CsvTable popularity_csv(const SpeedReport& report);
-[[nodiscard]] CsvTable size_csv(const SpeedReport& report);
 
 // Median times against the number of pictures, both logarithmic.
 // Requires: the report has rows.

@@ -3,10 +3,7 @@
 // time of the thread. Ends with 1 if an approximation breaks its promise.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,28 +11,17 @@
 #include "engine/curve/bspline.h"
 #include "engine/curve/plane_cubic.h"
 #include "tests/bench/approximate/strokes.h"
+#include "tests/eval/cpu_clock.h"
+#include "tests/eval/quantile.h"
 
 namespace {
 
 using namespace haarmony::curve;
+using haarmony::eval::cpu_ms_of;
+using haarmony::eval::median_deviation;
+using haarmony::eval::quantile;
 
 constexpr int kPointsPerSegment = 16;
-
-double seconds_of(const std::function<void()>& work) {
-    const auto now = [] {
-        timespec time{};
-        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-        return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-    };
-    const double begin = now();
-    work();
-    return now() - begin;
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
 
 // The baseline. The sum keeps the compiler from leaving it out.
 double evaluate(const std::vector<Points>& strokes) {
@@ -109,25 +95,22 @@ int main(int argc, char** argv) {
             std::vector<double> ratios;
             // The first round only warms.
             for (int round = 0; round <= rounds; ++round) {
-                const double base = seconds_of([&] { checksum += evaluate(strokes); });
-                const double time = seconds_of(
+                const double base = cpu_ms_of([&] { checksum += evaluate(strokes); });
+                const double time = cpu_ms_of(
                     [&] { totals = approximate_all(strokes, tolerance, mode.joining); });
                 if (round == 0) continue;
                 own.push_back(time);
                 ratios.push_back(time / base);
             }
-            const double ratio = median(ratios);
-            std::vector<double> deviations;
-            for (const double r : ratios) deviations.push_back(std::abs(r - ratio));
             std::printf("| approximate/%s-%g/%zu | %zu | %.4f | %.2f | %.1f | %.1f |\n",
                         mode.name,
                         tolerance,
                         points,
                         totals.segments,
                         totals.closest,
-                        median(own) / double(points) * 1e6,
-                        ratio,
-                        median(deviations));
+                        quantile(own, 0.5) / double(points) * 1e3,
+                        quantile(ratios, 0.5),
+                        median_deviation(ratios));
             broken += totals.broken;
         }
     }

@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <random>
 #include <vector>
 
 #include "engine/curve/multires_curve.h"
+#include "tests/eval/cpu_clock.h"
+#include "tests/eval/quantile.h"
 
 namespace {
 
 using namespace haarmony::curve;
+using namespace haarmony::eval;
 
 struct Options {
     std::vector<int> levels = {8, 10, 12, 14, 18, 20};
@@ -23,22 +25,11 @@ struct Options {
     bool closed = false;
 };
 
-double thread_seconds() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 // One of several ways of passing over the same points, by turns.
 struct Contender {
     const char* name;
     std::function<double()> work;  // returns a number that depends on all of the result
-    std::vector<double> seconds = {};
+    std::vector<double> times_ms = {};
 };
 
 Points random_curve(std::size_t count, int dimension) {
@@ -66,27 +57,25 @@ void measure(int level, const Options& options) {
     // The first round only warms.
     for (int round = 0; round <= options.rounds; ++round) {
         for (Contender& contender : contenders) {
-            const double begin = thread_seconds();
-            for (std::size_t i = 0; i < times; ++i) sink += contender.work();
-            if (round > 0)
-                contender.seconds.push_back((thread_seconds() - begin) / double(times));
+            const double time_ms = cpu_ms_of([&] {
+                for (std::size_t i = 0; i < times; ++i) sink += contender.work();
+            });
+            if (round > 0) contender.times_ms.push_back(time_ms / double(times));
         }
     }
     if (!std::isfinite(sink)) std::puts("a result is not finite");
     for (const Contender& contender : contenders) {
         std::vector<double> ratios;
-        for (std::size_t i = 0; i < contender.seconds.size(); ++i)
-            ratios.push_back(contender.seconds[i] / contenders[0].seconds[i]);
-        const double ratio = median(ratios);
-        for (double& value : ratios) value = std::abs(value - ratio);
+        for (std::size_t i = 0; i < contender.times_ms.size(); ++i)
+            ratios.push_back(contender.times_ms[i] / contenders[0].times_ms[i]);
         std::printf("| curve/%s-%dd%s/%zu | %.1f | %.1f | %.1f |\n",
                     contender.name,
                     options.dimension,
                     options.closed ? "-closed" : "",
                     control.size(),
-                    median(contender.seconds) / double(control.size()) * 1e9,
-                    ratio,
-                    median(ratios));
+                    quantile(contender.times_ms, 0.5) / double(control.size()) * 1e6,
+                    quantile(ratios, 0.5),
+                    median_deviation(ratios));
     }
 }
 

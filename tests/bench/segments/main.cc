@@ -2,13 +2,9 @@
 // beside making the lists of Figure 4.2 of the same pictures: in turns, in one process, by
 // the processor time of the thread.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +12,8 @@
 #include "engine/image/query.h"
 #include "engine/image/segment.h"
 #include "tests/bench/http/synthetic_rows.h"
+#include "tests/eval/cpu_clock.h"
+#include "tests/eval/quantile.h"
 
 namespace {
 
@@ -55,22 +53,6 @@ std::size_t plain_lists(const Pointers& records, int m) {
     return postings;
 }
 
-double seconds_of(const std::function<void()>& work) {
-    const auto now = [] {
-        timespec time{};
-        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-        return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-    };
-    const double begin = now();
-    work();
-    return now() - begin;
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 void print_row(const char* name,
                const Options& options,
                const std::vector<double>& plain,
@@ -79,19 +61,16 @@ void print_row(const char* name,
     std::vector<double> ratios;
     for (std::size_t round = 0; round < own.size(); ++round)
         ratios.push_back(own[round] / plain[round]);
-    const double ratio = median(ratios);
-    std::vector<double> deviations;
-    for (const double value : ratios) deviations.push_back(std::abs(value - ratio));
-    const double seconds = median(own);
+    const double ms = eval::quantile(own, 0.5);
     std::printf("| segments/%s-m%d/%d | %.0f | %.2f | %.1f | %.2f | %.2f |\n",
                 name,
                 options.index_m,
                 options.pictures,
-                options.pictures / seconds,
-                seconds / options.pictures * 1e6,
-                seconds / double(postings) * 1e9,
-                ratio,
-                median(deviations));
+                options.pictures / ms * 1e3,
+                ms / options.pictures * 1e3,
+                ms / double(postings) * 1e6,
+                eval::quantile(ratios, 0.5),
+                eval::median_deviation(ratios));
 }
 
 void measure(const Options& options) {
@@ -116,10 +95,10 @@ void measure(const Options& options) {
     // The first round only warms.
     for (int round = 0; round <= options.rounds; ++round) {
         const double for_plain =
-            seconds_of([&] { postings = plain_lists(all, options.index_m); });
+            eval::cpu_ms_of([&] { postings = plain_lists(all, options.index_m); });
         const double for_build =
-            seconds_of([&] { (void)Segment::from_records(all, options.index_m); });
-        const double for_merge = seconds_of([&] { (void)Segment::merge(parts); });
+            eval::cpu_ms_of([&] { (void)Segment::from_records(all, options.index_m); });
+        const double for_merge = eval::cpu_ms_of([&] { (void)Segment::merge(parts); });
         if (round == 0) continue;
         plain.push_back(for_plain);
         build.push_back(for_build);

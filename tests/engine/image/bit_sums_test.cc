@@ -3,63 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
-#include <memory>
 #include <numeric>
 #include <random>
-#include <string>
+#include <vector>
 
+#include "tests/engine/image/bit_planes.h"
 #include "tests/engine/image/each_target.h"
 
 namespace haarmony::image {
 namespace {
-
-constexpr int kSlotsAtOnce = kBlocksAtOnce * kBlockSlots;
-constexpr std::uint32_t kLargestSum = (1U << kMaxPlanes) - 1;
-
-using Sums = std::vector<std::uint32_t>;  // [slot]
-
-// Planes are too large for many of them on a stack.
-using BitSumsPtr = std::unique_ptr<BitSums>;
-
-BitSumsPtr copy_of(const BitSums& sums) { return std::make_unique<BitSums>(sums); }
-
-// What nobody may rely on, nor read by mistake.
-BitSumsPtr random_planes(std::mt19937_64& random) {
-    auto sums = std::make_unique<BitSums>();
-    for (auto& plane : sums->planes) {
-        for (std::uint64_t& word : plane) word = random();
-    }
-    return sums;
-}
-
-// Bit by bit, the slots of `sums` alone and planes [0, planes) alone.
-void write(const Sums& sums, int planes, BitSums& out) {
-    for (std::size_t slot = 0; slot < sums.size(); ++slot) {
-        for (int p = 0; p < planes; ++p) {
-            std::uint64_t& word = out.planes[std::size_t(p)][slot / 64];
-            const std::uint64_t bit = std::uint64_t{1} << (slot % 64);
-            word = (sums[slot] & (1U << p)) != 0 ? word | bit : word & ~bit;
-        }
-    }
-}
-
-Sums random_sums(std::uint32_t most, std::mt19937_64& random) {
-    Sums sums(kSlotsAtOnce);
-    for (std::uint32_t& sum : sums)
-        sum = static_cast<std::uint32_t>(random() % (most + 1U));
-    return sums;
-}
-
-std::string first_difference(const BitSums& a, const BitSums& b) {
-    for (std::size_t p = 0; p < a.planes.size(); ++p) {
-        for (std::size_t word = 0; word < a.planes[p].size(); ++word) {
-            if (a.planes[p][word] != b.planes[p][word])
-                return "plane " + std::to_string(p) + ", word " + std::to_string(word);
-        }
-    }
-    return "none";
-}
 
 // Rows that end where the blocks do, so that a sanitizer sees whoever reads on.
 class RandomRows {
@@ -288,83 +240,6 @@ TEST(BitSumPlan, HasThePlanesOfTheLargestSum) {
     }
 }
 
-TEST(BitSums, AtReadsTheSumOfASlot) {
-    std::mt19937_64 random(409);
-    const BitSumsPtr planes = random_planes(random);
-    for (const int used : {0, 1, 7, kMaxPlanes}) {
-        const Sums sums = random_sums((1U << used) - 1, random);
-        write(sums, used, *planes);
-        for (int slot = 0; slot < kSlotsAtOnce; ++slot)
-            ASSERT_EQ(planes->at(slot, used), sums[std::size_t(slot)]) << slot;
-    }
-}
-
-TEST(AtLeast, IsTheComparisonOfEverySum) {
-    std::mt19937_64 random(410);
-    for (int used = 0; used <= kMaxPlanes; ++used) {
-        const std::uint32_t most = (1U << used) - 1;
-        const Sums sums = random_sums(most, random);
-        const BitSumsPtr planes = random_planes(random);
-        write(sums, used, *planes);
-        std::vector<std::uint32_t> bounds = {0,
-                                             1,
-                                             most / 2,
-                                             most,
-                                             most + 1,
-                                             most + 2,
-                                             2 * most + 1,
-                                             kLargestSum + 1,
-                                             std::numeric_limits<std::uint32_t>::max()};
-        // One that is met exactly, and its neighbours.
-        for (const int change : {-1, 0, 1})
-            bounds.push_back(sums[300] + std::uint32_t(change));
-        for (int block = 0; block < kBlocksAtOnce; ++block) {
-            for (const std::uint32_t bound : bounds) {
-                const BlockBits bits = at_least(*planes, used, block, bound);
-                for (std::size_t slot = 0; slot < kBlockSlots; ++slot) {
-                    const std::uint32_t sum =
-                        sums[std::size_t(block) * kBlockSlots + slot];
-                    ASSERT_EQ((bits[slot / 64] >> (slot % 64) & 1U) != 0, sum >= bound)
-                        << used << " planes, sum " << sum << ", bound " << bound;
-                }
-            }
-        }
-    }
-}
-
-TEST(Spread, GivesEachSumToFourNeighboursAndTouchesNothingElse) {
-    std::mt19937_64 random(411);
-    for (const int used : {0, 1, 9, kMaxPlanes}) {
-        const Sums groups = random_sums((1U << used) - 1, random);
-        const BitSumsPtr from_planes = random_planes(random);
-        write(groups, used, *from_planes);
-        for (int from = 0; from < kBlocksAtOnce; ++from) {
-            for (int quarter = 0; quarter < 4; ++quarter) {
-                const int to = static_cast<int>(random() % kBlocksAtOnce);
-                const BitSumsPtr before = random_planes(random);
-                const BitSumsPtr expected = copy_of(*before);
-                for (int slot = 0; slot < kBlockSlots; ++slot) {
-                    const std::uint32_t sum =
-                        groups[std::size_t(from * kBlockSlots + quarter * 64 + slot / 4)];
-                    const int at = to * kBlockSlots + slot;
-                    for (int p = 0; p < used; ++p) {
-                        std::uint64_t& word = expected->planes[std::size_t(p)][at / 64];
-                        word &= ~(std::uint64_t{1} << (at % 64));
-                        word |= std::uint64_t{sum >> p & 1U} << (at % 64);
-                    }
-                }
-                for_each_target([&](const char* name) {
-                    const BitSumsPtr actual = copy_of(*before);
-                    spread(*from_planes, used, from, quarter, to, *actual);
-                    ASSERT_EQ(first_difference(*actual, *expected), "none")
-                        << name << ", block " << from << ", quarter " << quarter
-                        << ", to " << to;
-                });
-            }
-        }
-    }
-}
-
 // As a segment is searched: rows that four slots share first, then those of each slot.
 TEST(Spread, SumsOfGroupsAreWhatTheSlotsBeginWith) {
     std::mt19937_64 random(412);
@@ -392,27 +267,6 @@ TEST(Spread, SumsOfGroupsAreWhatTheSlotsBeginWith) {
                 << name << ", slot " << slot;
         }
     });
-}
-
-TEST(Unpack, IsTheSumOfEverySlotOnEveryTarget) {
-    std::mt19937_64 random(413);
-    for (int used = 0; used <= kMaxPlanes; ++used) {
-        const Sums sums = random_sums((1U << used) - 1, random);
-        const BitSumsPtr planes = random_planes(random);
-        write(sums, used, *planes);
-        for_each_target([&](const char* name) {
-            for (int block = 0; block < kBlocksAtOnce; ++block) {
-                UnpackedSums unpacked;
-                unpacked.fill(0xABCD);
-                unpack(*planes, used, block, unpacked);
-                for (std::size_t slot = 0; slot < kBlockSlots; ++slot) {
-                    ASSERT_EQ(unpacked[slot],
-                              sums[std::size_t(block) * kBlockSlots + slot])
-                        << name << ", " << used << " planes, block " << block;
-                }
-            }
-        });
-    }
 }
 
 }  // namespace

@@ -1,83 +1,17 @@
-// Each test damages one field of a real segment.
-#include <gmock/gmock.h>
+// What a segment is refused for, ranks aside.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "engine/image/segment_layout.h"
-#include "tests/engine/image/segment_bytes.h"
+#include "tests/engine/image/damaged_segment.h"
 
 namespace haarmony::image {
 namespace {
-
-using ::testing::HasSubstr;
-
-// Copies that know what they are refused for.
-class DamagedCopy : public Copy {
-  public:
-    using Copy::Copy;
-
-    void expect_damage(const std::string& named) {
-        const Result<SegmentView> result = view();
-        ASSERT_FALSE(result.has_value()) << named;
-        EXPECT_EQ(result.error().code, ErrorCode::kUndecodable);
-        EXPECT_THAT(result.error().message, HasSubstr("damaged: " + named));
-    }
-};
-
-// Every test damages a fresh copy of one segment: three tiers, three blocks, the last of
-// them not full, dense and coarse lists of each kind.
-class DamagedSegment : public ::testing::Test {
-  protected:
-    static constexpr int kIndexM = 50;
-    static constexpr int kSlots = 600;
-
-    static const Segment& whole() {
-        static const std::shared_ptr<const Segment> segment = [] {
-            std::mt19937 random(401);
-            return make_segment(make_records(random, kSlots), kIndexM);
-        }();
-        return *segment;
-    }
-    // The first key that `wanted` is true of.
-    template <typename Wanted>
-    std::size_t key_where(const Wanted& wanted) {
-        for (std::size_t key = 1; key < spans.directory.size(); ++key) {
-            if (wanted(DirectoryEntry(spans.directory[key]))) return key;
-        }
-        ADD_FAILURE() << "no such key";
-        return 0;
-    }
-    // The first channel of a slot with that many own coefficients.
-    struct OwnList {
-        std::size_t slot = 0;
-        std::size_t channel = 0;
-        std::size_t begin = 0;
-    };
-    OwnList own_list_of(int least) {
-        std::size_t begin = 0;
-        for (std::size_t slot = 0; slot < kSlots; ++slot) {
-            for (std::size_t c = 0; c < kChannels; ++c) {
-                const int count = spans.own_counts[slot][c][kMaxTiers - 1];
-                if (count >= least) return {slot, c, begin};
-                begin += std::size_t(count);
-            }
-        }
-        ADD_FAILURE() << "no such list";
-        return {};
-    }
-
-    static std::string number(std::size_t value) { return std::to_string(value); }
-
-    DamagedCopy copy{whole()};
-    SegmentUnderConstruction spans = copy.spans();
-};
 
 TEST_F(DamagedSegment, IsNoneAsLongAsNothingIsDamaged) {
     const Result<SegmentView> view = copy.view();
@@ -119,7 +53,8 @@ TEST_F(DamagedSegment, HasAnotherSizeThanItsCountsSay) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{64}, bytes.size() - 1}) {
         const auto result = view_segment(copy.counts, bytes.first(size));
         ASSERT_FALSE(result.has_value());
-        EXPECT_THAT(result.error().message, HasSubstr("its size is " + number(size)));
+        EXPECT_THAT(result.error().message,
+                    ::testing::HasSubstr("its size is " + number(size)));
     }
     copy.counts.slots += 64;
     copy.expect_damage("its size is " + number(bytes.size()));
@@ -295,120 +230,6 @@ TEST_F(DamagedSegment, HasACoefficientOfNoList) {
     ASSERT_NE(key, 0U);
     spans.directory[key] = 0;
     copy.expect_damage("coefficient " + number(i));
-}
-
-TEST_F(DamagedSegment, HasRanksOfABlockThatBeginElsewhere) {
-    ++spans.dense_rank_begin[4];
-    copy.expect_damage("ranks of block 4 is " + number(spans.dense_rank_begin[4]));
-}
-
-// The last list, so that no begin is wrong.
-TEST_F(DamagedSegment, HasFewerOrMoreRanksThanBits) {
-    const std::size_t last = copy.counts.dense[2] - 1;
-    const std::size_t word = last * copy.counts.row_words() + (kSlots - 1) / 64;
-    for (const bool more : {false, true}) {
-        DamagedCopy of_this(whole());
-        std::uint64_t& bits = of_this.spans().rows[2][word];
-        const int place = more ? std::countr_one(bits) : std::countr_zero(bits);
-        ASSERT_LT(place, kSlots % 64);
-        bits ^= std::uint64_t{1} << place;
-        // One bit more is one rank behind the end.
-        of_this.expect_damage(more ? "ranks of block " +
-                                         number(spans.dense_rank_begin.size() - 1)
-                                   : "end of ranks");
-    }
-}
-
-TEST_F(DamagedSegment, HasADenseRankThatCannotBe) {
-    for (const int rank : {kIndexM, kMaxCoefficients, 255}) {
-        spans.dense_ranks[11] = static_cast<std::uint8_t>(rank);
-        copy.expect_damage("dense rank 11 is " + std::to_string(rank));
-    }
-}
-
-TEST_F(DamagedSegment, HasOneRankTwice) {
-    // Two lists of one channel that the first picture with both of them is in.
-    const std::size_t words = copy.counts.row_words();
-    for (std::size_t slot = 0; slot < kSlots; ++slot) {
-        std::vector<std::size_t> places;
-        for (std::size_t list = 0; list < copy.counts.dense[0]; ++list) {
-            const bool in =
-                (spans.rows[2][list * words + slot / 64] >> (slot % 64) & 1) != 0;
-            if (in && spans.dense_keys[list] < 2 * kCoefficientCount)
-                places.push_back(dense_rank_place(spans, list, slot));
-        }
-        if (places.size() < 2) continue;
-        spans.dense_ranks[places[1]] = spans.dense_ranks[places[0]];
-        copy.expect_damage("dense rank " + number(places[1]));
-        return;
-    }
-    FAIL() << "no picture is in two dense lists";
-}
-
-TEST_F(DamagedSegment, HasRowsOfATierThatAreNotThoseOfTheRanks) {
-    for (const int t : {0, 1}) {
-        for (const bool more : {false, true}) {
-            DamagedCopy of_this(whole());
-            const auto rows = of_this.spans().rows;
-            // More: a bit that the top tier has, and this one has not.
-            std::size_t word = 0;
-            const auto wanted = [&] {
-                return more ? rows[2][word] & ~rows[t][word] : rows[t][word];
-            };
-            // A word of many, so that the block stays present.
-            while (wanted() == 0 || std::popcount(rows[t][word]) < 2) ++word;
-            rows[t][word] ^= wanted() & -wanted();
-            of_this.expect_damage("bits of list " +
-                                  number(word / copy.counts.row_words()) +
-                                  " is not those of its ranks");
-        }
-    }
-}
-
-TEST_F(DamagedSegment, HasOwnRanksThatAreNotOfTheirTierOrOrder) {
-    const OwnList list = own_list_of(2);
-    const auto damage = [&](std::size_t place, std::uint8_t rank) {
-        DamagedCopy of_this(whole());
-        of_this.spans().own_ranks[list.begin + place] = rank;
-        of_this.expect_damage("own rank " + number(list.begin + place) + " is " +
-                              number(rank));
-    };
-    damage(0, kIndexM);
-    damage(0, 255);
-    damage(1, spans.own_ranks[list.begin]);
-    // A coefficient that is counted in the first tier.
-    for (std::size_t i = 0, slot = 0; slot < kSlots; ++slot) {
-        i = spans.own_begin[slot];
-        if (spans.own_counts[slot][0][0] == 0) continue;
-        DamagedCopy of_this(whole());
-        of_this.spans().own_ranks[i] = 20;
-        of_this.expect_damage("own rank " + number(i) + " is 20");
-        break;
-    }
-}
-
-TEST_F(DamagedSegment, LacksARank) {
-    // The last coefficient of its tier and channel moves one up: no order tells.
-    for (std::size_t slot = 0; slot < kSlots; ++slot) {
-        const auto& tiers = spans.own_counts[slot][0];
-        if (tiers[2] == 0) continue;
-        const std::size_t last = spans.own_begin[slot] + tiers[2] - 1;
-        const bool coarse =
-            DirectoryEntry(spans.directory[coefficient_key(0, spans.own[last])])
-                .dense() == DirectoryEntry::kNone;
-        if (!coarse || tiers[2] == tiers[1] || spans.own_ranks[last] != kIndexM - 3)
-            continue;
-        spans.own_ranks[last] = kIndexM - 1;
-        const auto damaged = copy.view();
-        ASSERT_FALSE(damaged.has_value());
-        if (damaged.error().message.find("ranks of slot") == std::string::npos) {
-            spans.own_ranks[last] = kIndexM - 3;
-            continue;
-        }
-        copy.expect_damage("ranks of slot " + number(slot) + " is not complete");
-        return;
-    }
-    FAIL() << "no picture has its last rank to itself";
 }
 
 }  // namespace
