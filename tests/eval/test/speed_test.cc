@@ -14,6 +14,7 @@
 #include "ingest/thumbnail.h"
 #include "tests/eval/printed_times.h"
 #include "tests/eval/signature_cache.h"
+#include "tests/eval/speed_csv.h"
 #include "tests/eval/speed_report.h"
 #include "tests/eval/table_4_2.h"
 #include "tests/eval/test/generated_pictures.h"
