@@ -1,9 +1,6 @@
 #include "ingest/decode.h"
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,39 +11,16 @@
 #include "ingest/orientation.h"
 #include "ingest/png.h"
 #include "ingest/sniff.h"
+#include "ingest/unsupported.h"
 
 namespace haarmony::ingest {
-namespace {
-
-Error unsupported(std::span<const std::uint8_t> bytes,
-                  const std::optional<FileType>& type) {
-    std::string message;
-    if (bytes.empty()) {
-        message = "the picture is empty (0 bytes)";
-    } else if (type) {
-        message = std::string(type->name) + " (" + std::string(type->media_type) +
-                  ") is not a format that is read here";
-    } else {
-        message = "unknown format: the first bytes are";
-        for (const std::uint8_t byte :
-             bytes.first(std::min<std::size_t>(bytes.size(), 8))) {
-            std::array<char, 4> hex{};
-            std::snprintf(hex.data(), hex.size(), " %02x", byte);
-            message += hex.data();
-        }
-    }
-    return {ErrorCode::kUnsupportedFormat, message};
-}
-
-}  // namespace
-
 Decoder::Decoder(const DecodeLimits& limits) : limits_(limits) {}
 
 Decoder::~Decoder() = default;
 
 Result<Picture> Decoder::decode(std::span<const std::uint8_t> bytes) {
     const std::optional<FileType> type = sniff(bytes);
-    if (!type || !type->format) return unsupported(bytes, type);
+    if (!type || !type->format) return unsupported_format(bytes, "picture");
     const Format format = *type->format;
     const Result<Dimensions> dimensions = read_dimensions(format, bytes);
     if (!dimensions) return dimensions.error();

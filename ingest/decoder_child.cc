@@ -1,159 +1,24 @@
 #include "ingest/decoder_child.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "ingest/one_line.h"
+#include "ingest/socket_wire.h"
 
 namespace haarmony::ingest {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = SocketChild::Clock;
 
 constexpr const char* kProgramName = "haarmony-decode";
-
-enum class Received { kAll, kEnd, kLate };
-
-// Exactly `count` bytes before `deadline`.
-Received receive_all(int socket,
-                     void* bytes,
-                     std::size_t count,
-                     Clock::time_point deadline) {
-    char* to = static_cast<char*>(bytes);
-    while (count > 0) {
-        const auto left =
-            std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-        if (left <= 0) return Received::kLate;
-        pollfd wait = {socket, POLLIN, 0};
-        const int ready =
-            ::poll(&wait, 1, static_cast<int>(std::min<long>(left, 1 << 30)));
-        if (ready < 0 && errno != EINTR) return Received::kEnd;
-        if (ready <= 0) continue;
-        const ssize_t got = ::recv(socket, to, count, MSG_DONTWAIT);
-        if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-        if (got <= 0) return Received::kEnd;
-        to += got;
-        count -= static_cast<std::size_t>(got);
-    }
-    return Received::kAll;
-}
-
-// posix_spawn's settings, freed with the scope.
-struct SpawnPlan {
-    SpawnPlan() {
-        posix_spawn_file_actions_init(&actions);
-        posix_spawnattr_init(&attributes);
-    }
-    ~SpawnPlan() {
-        posix_spawn_file_actions_destroy(&actions);
-        posix_spawnattr_destroy(&attributes);
-    }
-    SpawnPlan(const SpawnPlan&) = delete;
-    SpawnPlan& operator=(const SpawnPlan&) = delete;
-
-    posix_spawn_file_actions_t actions{};
-    posix_spawnattr_t attributes{};
-};
-
-// The socket as descriptor 0, nothing else open; no signal blocked or ignored; a process
-// group of its own, for Ctrl-C in the terminal is meant for us and not for a child in the
-// middle of a picture.
-void plan_child(SpawnPlan& plan, int socket) {
-    posix_spawn_file_actions_adddup2(&plan.actions, socket, 0);
-    posix_spawn_file_actions_addopen(&plan.actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&plan.actions, 2, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addclosefrom_np(&plan.actions, 3);
-    sigset_t none;
-    sigset_t all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&plan.attributes, &none);
-    posix_spawnattr_setsigdefault(&plan.attributes, &all);
-    posix_spawnattr_setpgroup(&plan.attributes, 0);
-    posix_spawnattr_setflags(
-        &plan.attributes,
-        POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-}
 
 std::string name_of(Format format) { return std::string(describe_format(format).name); }
 
 }  // namespace
 
-std::string find_decoder_program() {
-    std::error_code failed;
-    const std::filesystem::path self =
-        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
-    for (const std::filesystem::path& folder : {self, self.parent_path() / "libexec"}) {
-        const std::filesystem::path candidate = folder / kProgramName;
-        if (::access(candidate.c_str(), X_OK) == 0) return candidate.string();
-    }
-    return kProgramName;
-}
+std::string find_decoder_program() { return find_program(kProgramName); }
 
 DecoderChild::DecoderChild(ChildOptions options) : options_(std::move(options)) {}
-
-DecoderChild::~DecoderChild() { kill_and_wait(); }
-
-int DecoderChild::kill_and_wait() {
-    socket_ = FileDescriptor();
-    if (pid_ < 0) return 0;
-    ::kill(pid_, SIGKILL);
-    int status = 0;
-    pid_t waited = 0;
-    do {
-        waited = ::waitpid(pid_, &status, 0);
-    } while (waited < 0 && errno == EINTR);
-    pid_ = -1;
-    return waited < 0 ? 0 : status;
-}
-
-Result<void> DecoderChild::start() {
-    std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        return Error{ErrorCode::kIo,
-                     "socketpair: " + std::generic_category().message(errno)};
-    }
-    FileDescriptor ours(ends[0]);
-    const FileDescriptor theirs(ends[1]);
-
-    SpawnPlan plan;
-    plan_child(plan, theirs.get());
-    std::string name = kProgramName;
-    std::string memory = std::to_string(options_.address_space);
-    // One heap for all threads keeps the address space small.
-    std::string arenas = "MALLOC_ARENA_MAX=1";
-    const std::array<char*, 3> arguments = {name.data(), memory.data(), nullptr};
-    const std::array<char*, 2> environment = {arenas.data(), nullptr};
-    const int failed = ::posix_spawn(&pid_,
-                                     options_.program.c_str(),
-                                     &plan.actions,
-                                     &plan.attributes,
-                                     arguments.data(),
-                                     environment.data());
-    if (failed != 0) {
-        pid_ = -1;
-        return Error{ErrorCode::kIo,
-                     std::string(kProgramName) +
-                         ", the program that decodes this format, "
-                         "cannot be started: " +
-                         std::generic_category().message(failed)};
-    }
-    socket_ = std::move(ours);
-    return {};
-}
 
 // A child that died since the last picture (killed when memory was short, say) is no fault
 // of this one: it is replaced once.
@@ -166,11 +31,13 @@ Result<void> DecoderChild::request(Format format, std::span<const std::uint8_t> 
     message.max_pixels = options_.max_pixels;
     message.cpu_seconds = options_.cpu_seconds;
     for (int attempt = 0; attempt < 2; ++attempt) {
-        if (pid_ < 0) {
-            if (auto started = start(); !started) return started;
+        if (!child_.running()) {
+            auto started = child_.start(
+                options_.program, "decodes this format", options_.address_space);
+            if (!started) return started;
         }
-        if (send_request(socket_.get(), message, memory->get())) return {};
-        kill_and_wait();
+        if (send_request(child_.socket(), message, memory->get())) return {};
+        child_.kill_and_wait();
     }
     return Error{ErrorCode::kIo,
                  std::string(kProgramName) + " ends as soon as it starts"};
@@ -178,35 +45,9 @@ Result<void> DecoderChild::request(Format format, std::span<const std::uint8_t> 
 
 // The child is of no more use: `sign` is what we saw of it.
 Error DecoderChild::bury(Format format, const std::string& sign) {
-    // One that is on its way out is left to finish dying, so that its own signal is seen:
-    // the socket closed before the process became a zombie.
-    int status = 0;
-    pid_t waited = 0;
-    const Clock::time_point deadline = Clock::now() + std::chrono::seconds(1);
-    while (sign.empty() && waited == 0 && Clock::now() < deadline) {
-        waited = ::waitpid(pid_, &status, WNOHANG);
-        if (waited == 0) ::poll(nullptr, 0, 1);
-    }
-    if (waited == pid_) {
-        pid_ = -1;
-        socket_ = FileDescriptor();
-    } else {
-        status = kill_and_wait();
-    }
-    std::string reason = sign;
-    if (reason.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-        reason = "took more than " + std::to_string(options_.cpu_seconds) +
-                 " s of processor time";
-    } else if (reason.empty() && WIFSIGNALED(status)) {
-        const char* text = ::sigdescr_np(WTERMSIG(status));
-        reason = "crashed (signal " + std::to_string(WTERMSIG(status)) +
-                 (text != nullptr ? ", " + std::string(text) : std::string()) + ")";
-    } else if (reason.empty()) {
-        reason =
-            "crashed (it ended with status " + std::to_string(WEXITSTATUS(status)) + ")";
-    }
     return {ErrorCode::kUndecodable,
-            "damaged " + name_of(format) + ": its decoder " + reason};
+            "damaged " + name_of(format) + ": its decoder " +
+                child_.bury(sign, options_.cpu_seconds)};
 }
 
 Result<Raster> DecoderChild::receive(Format format) {
@@ -218,20 +59,19 @@ Result<Raster> DecoderChild::receive(Format format) {
             "did not answer within " + std::to_string(options_.patience.count()) + " ms");
     };
     WireReply reply;
-    Received received = receive_all(socket_.get(), &reply, sizeof(reply), deadline);
+    Received received = child_.receive(&reply, sizeof(reply), deadline);
     if (received != Received::kAll) return failure(received);
     if (!check_reply(reply, options_.max_pixels)) {
         return bury(format, "crashed (its answer makes no sense)");
     }
     if (reply.status == WireStatus::kPixels) {
         Raster raster(reply.width, reply.height, reply.channels);
-        received = receive_all(
-            socket_.get(), raster.pixels.data(), raster.pixels.size(), deadline);
+        received = child_.receive(raster.pixels.data(), raster.pixels.size(), deadline);
         if (received != Received::kAll) return failure(received);
         return raster;
     }
     std::string text(reply.length, '\0');
-    received = receive_all(socket_.get(), text.data(), text.size(), deadline);
+    received = child_.receive(text.data(), text.size(), deadline);
     if (received != Received::kAll) return failure(received);
     return Error{reply.status == WireStatus::kTooLarge ? ErrorCode::kTooLarge
                                                        : ErrorCode::kUndecodable,

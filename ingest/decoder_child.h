@@ -12,8 +12,6 @@
 // Threads one DecoderChild a thread; any number of them side by side.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <span>
@@ -23,6 +21,7 @@
 #include "ingest/decoder_wire.h"
 #include "ingest/raster.h"
 #include "ingest/sniff.h"
+#include "ingest/socket_child.h"
 
 namespace haarmony::ingest {
 
@@ -37,31 +36,24 @@ struct ChildOptions {
 class DecoderChild {
   public:
     explicit DecoderChild(ChildOptions options);
-    ~DecoderChild();
-    DecoderChild(const DecoderChild&) = delete;
-    DecoderChild& operator=(const DecoderChild&) = delete;
 
     [[nodiscard]] Result<Raster> decode(Format format,
                                         std::span<const std::uint8_t> bytes);
 
     // The running child, -1 = none.
-    [[nodiscard]] pid_t pid() const { return pid_; }
+    [[nodiscard]] pid_t pid() const { return child_.pid(); }
 
   private:
-    [[nodiscard]] Result<void> start();
     [[nodiscard]] Result<void> request(Format format,
                                        std::span<const std::uint8_t> bytes);
     [[nodiscard]] Result<Raster> receive(Format format);
     [[nodiscard]] Error bury(Format format, const std::string& sign);
-    int kill_and_wait();
 
     ChildOptions options_;
-    FileDescriptor socket_;
-    pid_t pid_ = -1;
+    SocketChild child_;
 };
 
-// haarmony-decode beside the running executable, or in ../libexec, or just its name where
-// neither exists (starting it then fails and says so).
+// As find_program(): haarmony-decode.
 [[nodiscard]] std::string find_decoder_program();
 
 }  // namespace haarmony::ingest

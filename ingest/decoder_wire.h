@@ -4,19 +4,17 @@
 //                     with the picture's bytes
 //   child -> parent   one WireReply, then `length` bytes: pixels, or a message
 //
-// Both ends are the same build on the same machine: structures travel as they lie in
-// memory, and kWireMagic tells a stranger. The parent believes nothing in a reply before
-// check_reply() has agreed.
+// They travel as socket_wire.h says, and kWireMagic tells a stranger. The parent believes
+// nothing in a reply before check_reply() has agreed.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
-#include "engine/core/result.h"
 #include "ingest/file_descriptor.h"
 #include "ingest/sniff.h"
+#include "ingest/socket_wire.h"
 
 namespace haarmony::ingest {
 
@@ -46,12 +44,8 @@ struct WireReply {
 // Whether a reply is one that an honest child could send.
 [[nodiscard]] bool check_reply(const WireReply& reply, std::int64_t max_pixels);
 
-// A memory file with a copy of `bytes` that nobody can change any more.
-[[nodiscard]] Result<FileDescriptor> sealed_memory(std::span<const std::uint8_t> bytes);
-
-// False where the peer is gone or sends something else. No signal is raised.
+// As send_with_file().
 [[nodiscard]] bool send_request(int socket, const WireRequest& request, int memory);
-[[nodiscard]] bool send_all(int socket, const void* bytes, std::size_t count);
 
 struct ReceivedRequest {
     WireRequest request;
