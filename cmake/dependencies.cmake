@@ -20,5 +20,6 @@ endif()
 # was built with; its pkg-config file does not.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(LibAv REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 pkg_check_modules(XXHash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(WebP REQUIRED IMPORTED_TARGET libwebp libwebpdemux)

@@ -25,28 +25,11 @@
 #include "engine/core/result.h"
 #include "engine/video/clip_shape.h"
 #include "engine/video/frame_source.h"
-#include "engine/video/picture.h"
 #include "ingest/file_descriptor.h"
+#include "ingest/picture_source.h"
+#include "ingest/video_wire.h"
 
 namespace haarmony::ingest {
-
-struct TimedPicture {
-    video::Picture picture;
-    std::int64_t time_us = 0;  // when it is first shown, as the file says
-};
-
-class PictureSource {
-  public:
-    virtual ~PictureSource() = default;
-    [[nodiscard]] virtual const video::FrameFormat& format() const = 0;
-    // The next picture into `shown` (its storage is used again), or false at the end.
-    [[nodiscard]] virtual Result<bool> next(TimedPicture& shown) = 0;
-};
-
-enum class VideoFrames : std::uint8_t {
-    kAll,
-    kKey,  // those that need no other frame: about one a shot, and much quicker
-};
 
 struct VideoSourceOptions {
     VideoFrames frames = VideoFrames::kAll;

@@ -1,0 +1,42 @@
+// A file as libav reads it: one descriptor, nothing else.
+//
+// Errors  libav's codes, from the system's.
+// Threads one caller; the descriptor's own position is not touched.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "engine/core/result.h"
+#include "ingest/libav.h"
+
+namespace haarmony::ingest {
+
+class LibavFile {
+  public:
+    // Requires: the descriptor stays open while this lives.
+    explicit LibavFile(int descriptor);
+    LibavFile(const LibavFile&) = delete;
+    LibavFile& operator=(const LibavFile&) = delete;
+
+    [[nodiscard]] AVIOContext* io() const { return io_.get(); }
+    [[nodiscard]] std::int64_t size() const { return size_; }
+    // Bytes at `offset`, without moving; how many there were.
+    [[nodiscard]] std::int64_t read_at(std::int64_t offset,
+                                       std::uint8_t* to,
+                                       std::int64_t count) const;
+
+  private:
+    static int read(void* self, std::uint8_t* to, int count);
+    static std::int64_t seek(void* self, std::int64_t offset, int whence);
+
+    int descriptor_;
+    std::int64_t size_ = 0;
+    std::int64_t position_ = 0;
+    Libav<AVIOContext> io_;
+};
+
+// How many frames a PNG's animation chunk announces; nothing where it is a still.
+[[nodiscard]] std::optional<std::int64_t> animation_frames(const LibavFile& png);
+
+}  // namespace haarmony::ingest
