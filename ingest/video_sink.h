@@ -53,6 +53,7 @@ struct VideoSinkOptions {
     std::int64_t frames = 0;                     // how many will come
     video::Rgba background = {0, 0, 0, 255};     // opaque; what mp4 shows below alpha
     std::chrono::milliseconds patience{60'000};  // for one picture in the child
+    std::int64_t child_bytes = std::int64_t{4} << 30;  // address space of the child
     std::string program = {};  // empty: haarmony-video beside us or in ../libexec
 };
 
