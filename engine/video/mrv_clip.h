@@ -2,6 +2,9 @@
 // room for them.
 //   mrv_writer.h -> [mrv_clip.h] -> time_tree.h
 //
+// The front of a file is a clip, too: its coarse space levels are there, and asking for more
+// is an error.
+//
 // Errors   kUnsupportedFormat: not a .mrv file; kNewerVersion; kUndecodable: damaged, naming
 //          what is wrong and where. Hostile bytes never crash nor take more memory than the
 //          limit and one frame's chain.
@@ -36,6 +39,8 @@ class MrvClip final : public TimeTree {
 
     [[nodiscard]] std::uint64_t revision() const;
     [[nodiscard]] std::size_t cached_bytes() const;
+    // How many chunks were decoded since open().
+    [[nodiscard]] std::uint64_t decoded_chunks() const;
     // Every chunk read and checked: what a clip from elsewhere must pass before it is kept.
     [[nodiscard]] Result<void> verify() const;
 

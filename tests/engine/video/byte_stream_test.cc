@@ -1,0 +1,58 @@
+// Numbers of a file.
+#include "engine/video/byte_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace haarmony::video {
+namespace {
+
+TEST(ByteStream, VarintsComeBack) {
+    for (int bits = 0; bits <= 64; ++bits) {
+        for (const std::uint64_t off : {std::uint64_t{0}, ~std::uint64_t{0}}) {
+            const std::uint64_t value = (bits == 64 ? 0 : std::uint64_t{1} << bits) + off;
+            std::vector<std::byte> bytes;
+            put_varint(bytes, value);
+            ByteReader in(bytes);
+            EXPECT_EQ(in.varint(), value);
+            EXPECT_TRUE(in.rest().empty());
+            EXPECT_FALSE(in.overrun());
+        }
+    }
+}
+
+TEST(ByteStream, ZigzagKeepsSmallNumbersSmall) {
+    using Limits = std::numeric_limits<std::int64_t>;
+    for (const std::int64_t value : {std::int64_t{0},
+                                     std::int64_t{-1},
+                                     std::int64_t{63},
+                                     Limits::min(),
+                                     Limits::max()})
+        EXPECT_EQ(unzigzag(zigzag(value)), value);
+    EXPECT_EQ(zigzag(-64), 127U);
+}
+
+TEST(ByteStream, ReadingPastTheEndIsNoticed) {
+    const std::array<std::byte, 3> bytes{
+        std::byte{0x81}, std::byte{0x80}, std::byte{0x80}};
+    ByteReader open_ended(bytes);
+    EXPECT_EQ(open_ended.varint(), 0U);
+    EXPECT_TRUE(open_ended.overrun());
+    ByteReader in(bytes);
+    EXPECT_EQ(in.fixed<std::uint32_t>(), 0U);
+    EXPECT_TRUE(in.overrun());
+    EXPECT_TRUE(in.rest().empty());
+}
+
+TEST(ByteStream, AVarintOfMoreThan64BitsIsNone) {
+    std::vector<std::byte> bytes(9, std::byte{0xFF});
+    bytes.push_back(std::byte{0x02});
+    ByteReader in(bytes);
+    EXPECT_EQ(in.varint(), 0U);
+    EXPECT_TRUE(in.overrun());
+}
+
+}  // namespace
+}  // namespace haarmony::video
