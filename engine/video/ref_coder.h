@@ -2,6 +2,7 @@
 // the order of coding.
 //   symbol_coder.h -> [ref_coder.h] -> layer_coder.h, time_node_coder.h
 //
+// Shape    a ref that is spelled out counts time levels upwards from its own.
 // Errors   reading: damaged() where a kind or a ref is none of the format's. That a ref lies
 //          within its layer is for the caller to see.
 #pragma once
@@ -39,6 +40,7 @@ class RefSequence {
   public:
     explicit RefSequence(int own_level) : own_level_(own_level) {}
 
+    [[nodiscard]] int own_level() const { return own_level_; }
     [[nodiscard]] Ref next() const { return make_ref(own_level_, next_); }
     void saw(Ref ref) {
         if (time_level_of(ref) == own_level_ && index_of(ref) >= next_)
@@ -63,8 +65,8 @@ class PutRefs {
         symbols_.put(0, context + sequence.last_kind, kind);
         sequence.last_kind = kind;
         if (kind == kExplicit) {
-            std::uint64_t bits = static_cast<std::uint32_t>(index_of(ref)) |
-                                 static_cast<std::uint64_t>(time_level_of(ref)) << 32;
+            const int up = sequence.own_level() - time_level_of(ref);
+            std::uint64_t bits = index_of(ref) | static_cast<std::uint64_t>(up) << 32;
             for (int i = 0; i < kExplicitBytes; ++i, bits >>= 8)
                 symbols_.put(0, kExplicitContext + i, static_cast<std::uint8_t>(bits));
         }
@@ -94,12 +96,12 @@ class TakeRefs {
             for (int i = 0; i < kExplicitBytes; ++i) {
                 bits |= std::uint64_t{symbols_.next<0>(kExplicitContext + i)} << 8 * i;
             }
-            if (bits >> 32 > kMaxTimeLevels || (bits & 0xFFFF'FFFF) > kMaxRefIndex) {
+            const int level = sequence.own_level() - static_cast<int>(bits >> 32);
+            if (level < 0 || (bits & 0xFFFF'FFFF) > kMaxRefIndex) {
                 damaged_ = true;
                 return;
             }
-            ref =
-                make_ref(static_cast<int>(bits >> 32), static_cast<std::uint32_t>(bits));
+            ref = make_ref(level, static_cast<std::uint32_t>(bits));
         } else {
             ref = candidates[kind];
         }
