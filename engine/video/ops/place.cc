@@ -60,15 +60,13 @@ class Placing {
         // Pixels of a canvas below level 3 are several units wide, and so are the tree's.
         const int unit = std::max(0, kBrickLevel - canvas_levels);
         halvings_ = mapping.halvings + std::max(0, kBrickLevel - levels);
-        scale_x_ = mapping.scale_x << unit;
-        scale_y_ = mapping.scale_y << unit;
-        add_x_ = mapping.add_x << (unit + halvings_ - mapping.halvings);
-        add_y_ = mapping.add_y << (unit + halvings_ - mapping.halvings);
         cell_ = std::int64_t{1} << unit;
-        canvas_ = {0,
-                   0,
-                   std::int64_t{canvas.width} << unit,
-                   std::int64_t{canvas.height} << unit};
+        scale_x_ = mapping.scale_x * cell_;
+        scale_y_ = mapping.scale_y * cell_;
+        const std::int64_t whole = cell_ << (halvings_ - mapping.halvings);
+        add_x_ = mapping.add_x * whole;
+        add_y_ = mapping.add_y * whole;
+        canvas_ = {0, 0, canvas.width * cell_, canvas.height * cell_};
         side_ = std::int64_t{1} << std::max(kBrickLevel, canvas_levels);
         root_side_ = std::int64_t{1} << std::max(kBrickLevel, levels);
     }
