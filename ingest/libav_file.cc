@@ -71,23 +71,38 @@ std::int64_t LibavFile::seek(void* self, std::int64_t offset, int whence) {
     return file->position_ = base + offset;
 }
 
-std::optional<std::int64_t> animation_frames(const LibavFile& png) {
+std::optional<PngAnimation> png_animation(const LibavFile& png) {
     constexpr std::int64_t kSignature = 8;
     constexpr std::int64_t kAroundChunk = 12;  // length, type, checksum
-    // Length, type, and the first number of the chunk.
-    std::array<std::uint8_t, 12> head{};
-    const auto number = [&head](std::size_t at) {
-        return std::int64_t{head[at]} << 24 | head[at + 1] << 16 | head[at + 2] << 8 |
-               head[at + 3];
+    constexpr int kUnsaidDenominator = 100;
+    // A chunk up to the end of the delay in an fcTL.
+    std::array<std::uint8_t, 32> head{};
+    const auto number = [&head](std::size_t at, std::size_t bytes) {
+        std::int64_t value = 0;
+        for (std::size_t i = at; i < at + bytes; ++i) value = value << 8 | head[i];
+        return value;
     };
+    std::optional<PngAnimation> animation;
+    bool uniform = true;
     std::int64_t at = kSignature;
-    while (png.read_at(at, head.data(), head.size()) ==
-           static_cast<std::int64_t>(head.size())) {
-        if (std::memcmp(head.data() + 4, "acTL", 4) == 0) return number(8);
-        if (std::memcmp(head.data() + 4, "IDAT", 4) == 0) return std::nullopt;
-        at += kAroundChunk + number(0);
+    while (png.read_at(at, head.data(), head.size()) >= kAroundChunk) {
+        const auto is = [&head](const char* type) {
+            return std::memcmp(head.data() + 4, type, 4) == 0;
+        };
+        if (is("acTL") && !animation) animation = PngAnimation{number(8, 4), {}};
+        if (is("IDAT") && !animation) return std::nullopt;
+        if (is("fcTL") && animation) {
+            const auto seconds = static_cast<std::int32_t>(number(28, 2));
+            const auto parts = static_cast<std::int32_t>(number(30, 2));
+            const video::FrameRate rate = {parts == 0 ? kUnsaidDenominator : parts,
+                                           seconds};
+            uniform = uniform && seconds > 0 && rate == animation->rate.value_or(rate);
+            animation->rate = rate;
+        }
+        at += kAroundChunk + number(0, 4);
     }
-    return std::nullopt;
+    if (animation && !uniform) animation->rate.reset();
+    return animation;
 }
 
 }  // namespace haarmony::ingest

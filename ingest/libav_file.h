@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/core/result.h"
+#include "engine/video/clip_shape.h"
 #include "ingest/libav.h"
 
 namespace haarmony::ingest {
@@ -36,7 +36,12 @@ class LibavFile {
     Libav<AVIOContext> io_;
 };
 
-// How many frames a PNG's animation chunk announces; nothing where it is a still.
-[[nodiscard]] std::optional<std::int64_t> animation_frames(const LibavFile& png);
+// What the chunks of an animated PNG say: libav rounds its delays to 1/100,000 s.
+struct PngAnimation {
+    std::int64_t frames = 0;               // announced
+    std::optional<video::FrameRate> rate;  // where all frames last equally long
+};
+// Nothing where it is a still.
+[[nodiscard]] std::optional<PngAnimation> png_animation(const LibavFile& png);
 
 }  // namespace haarmony::ingest

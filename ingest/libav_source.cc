@@ -151,7 +151,7 @@ class LibavSource : public PictureSource {
     LibavSourceOptions options_;
     Demuxer demuxer_;
     const char* demuxer_name_ = "";
-    std::optional<std::int64_t> announced_;  // frames, by an animated PNG
+    std::optional<PngAnimation> png_;
     Libav<AVCodecContext> decoder_;
     Libav<AVPacket> packet_;
     Libav<AVFrame> frame_;
@@ -239,10 +239,11 @@ Result<video::FrameRate> LibavSource::measured_rate() {
         duration += packet_->duration;
     }
     if (code != AVERROR_EOF) return failed(code);
-    if (announced_ && packets < *announced_) {
+    if (png_ && packets < png_->frames) {
         return damaged("it ends after " + std::to_string(packets) + " of " +
-                       std::to_string(*announced_) + " frames");
+                       std::to_string(png_->frames) + " frames");
     }
+    if (png_ && png_->rate) return *png_->rate;
     const AVRational base = scan.stream()->time_base;
     video::FrameRate rate = kUntimedRate;
     if (duration > 0 && packets > 0) {
@@ -256,7 +257,7 @@ Result<video::FrameRate> LibavSource::measured_rate() {
 }
 
 Result<video::FrameRate> LibavSource::rate() {
-    if (options_.format == VideoFormat::kGif || announced_) return measured_rate();
+    if (options_.format == VideoFormat::kGif || png_) return measured_rate();
     const AVStream& stream = *demuxer_.stream();
     for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
         if (rate.num > 0 && rate.den > 0) return video::FrameRate{rate.num, rate.den};
@@ -267,9 +268,9 @@ Result<video::FrameRate> LibavSource::rate() {
 Result<void> LibavSource::open() {
     if (!packet_ || !frame_) return failed(AVERROR(ENOMEM));
     if (options_.format == VideoFormat::kPng) {
-        announced_ = animation_frames(demuxer_.file());
+        png_ = png_animation(demuxer_.file());
     }
-    demuxer_name_ = demuxer_of(options_.format, announced_.has_value());
+    demuxer_name_ = demuxer_of(options_.format, png_.has_value());
     if (const int code = demuxer_.open(demuxer_name_); code < 0) return failed(code);
     if (demuxer_.stream() == nullptr) {
         return Error{ErrorCode::kUnsupportedFormat,
