@@ -25,6 +25,7 @@ constexpr const char* kDecoders =
     "mjpeg,mpeg1video,mpeg2video,mpeg4,png,prores,qtrle,rawvideo,theora,utvideo,vp8,vp9";
 constexpr video::FrameRate kGuessedRate = {25, 1};
 constexpr video::FrameRate kUntimedRate = {10, 1};  // as browsers show untimed animations
+constexpr std::int64_t kBlockPixels = 1 << 16;
 constexpr AVRational kMicroseconds = {1, 1'000'000};
 
 const char* demuxer_of(VideoFormat format, bool animated_png) {
@@ -171,6 +172,7 @@ Error LibavSource::failed(int code) const {
         return {ErrorCode::kTooLarge,
                 "decoding this " + name() + " needs more memory than it may have"};
     }
+    if (code == AVERROR_EOF) return damaged("it ends too early");
     const std::string where =
         frames_ == 0 ? std::string() : " after frame " + std::to_string(frames_ - 1);
     return damaged(libav_words(code) + where);
@@ -214,7 +216,8 @@ Result<void> LibavSource::open_decoder() {
     }
     decoder_->pkt_timebase = demuxer_.stream()->time_base;
     decoder_->thread_count = 1;
-    decoder_->max_pixels = options_.max_pixels;
+    // Of the coded size, which has whole blocks; the picture's own is checked exactly.
+    decoder_->max_pixels = 2 * options_.max_pixels + kBlockPixels;
     decoder_->flags |= AV_CODEC_FLAG_BITEXACT;
     // Stills and animations are whole or damaged. Films often have a bit too many somewhere.
     if (options_.format == VideoFormat::kGif || options_.format == VideoFormat::kPng) {
