@@ -25,8 +25,8 @@ struct TimelineBucket {
     // [k - 1], k = 1 .. time_levels: the share of the picture that differs at time level k
     // from the time-parent, on the average of the bucket's frames.
     std::vector<double> changed;
-    // The finest space level that any frame of the bucket has detail at: one more than that
-    // asked for where there is more still.
+    // The finest space level that any frame of the bucket has squares of (a flat one has
+    // those of kBrickLevel); one more than that asked for where there is more still.
     int deepest_level = 0;
     double squares = 0;  // bricks that show a frame, on the average
 
