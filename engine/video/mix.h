@@ -16,16 +16,15 @@
 
 namespace haarmony::video {
 
-// Requires: 1 <= bits <= 30, weight <= 2^bits.
+// Requires: 1 <= bits <= 20, weight <= 2^bits.
 [[nodiscard]] inline Rgba mixed(Rgba p, Rgba q, std::uint32_t weight, int bits) {
-    assert(bits >= 1 && bits <= 30 && weight <= std::uint32_t{1} << bits);
+    assert(bits >= 1 && bits <= 20 && weight <= std::uint32_t{1} << bits);
     if (p == q) return p;
     const std::uint32_t rest = (std::uint32_t{1} << bits) - weight;
     if (p.a == 255 && q.a == 255) {  // mean() without a division
         const auto channel = [=](std::uint32_t a, std::uint32_t b) {
-            const std::uint64_t sum = std::uint64_t{a} * weight + std::uint64_t{b} * rest;
-            return static_cast<std::uint8_t>((sum + (std::uint64_t{1} << (bits - 1))) >>
-                                             bits);
+            const std::uint32_t sum = a * weight + b * rest;
+            return static_cast<std::uint8_t>((sum + (1U << (bits - 1))) >> bits);
         };
         return {channel(p.r, q.r), channel(p.g, q.g), channel(p.b, q.b), 255};
     }

@@ -119,8 +119,9 @@ struct LevelStrip {
 
 // What one column of the view shows: row Y is at top + Y * step on the cylinder.
 struct Column {
-    int level = 0;             // the finer of the two levels that are mixed
-    std::uint32_t weight = 0;  // of it
+    const LevelStrip* finer = nullptr;  // of the two levels that are mixed
+    const LevelStrip* coarser = nullptr;
+    std::uint32_t weight = 0;  // of the finer one
     Between fine;
     Between coarse;
     double top = 0;
@@ -129,6 +130,8 @@ struct Column {
 
 class View {
   public:
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
     View(const ClipShape& shape, const PanoramaView& view)
         : shape_(shape), view_(view), columns_(static_cast<std::size_t>(view.width)) {
         const double degree = std::numbers::pi / 180;
@@ -169,21 +172,24 @@ class View {
     void choose_levels(Column& column, double place) {
         const int finest = shape_.space_levels();
         const double level = finest - std::log2(column.step);
-        column.level = std::clamp(static_cast<int>(std::ceil(level)), 0, finest);
-        // (M - h) / h with M = 2^level, h = 2^(column.level - 1)
-        column.weight = share_of(std::exp2(level - column.level + 1) - 1);
-        if (column.level == 0) column.weight = kWhole;
-        column.fine = read(column, column.level, place);
-        column.coarse =
-            column.weight < kWhole ? read(column, column.level - 1, place) : column.fine;
+        const int finer = std::clamp(static_cast<int>(std::ceil(level)), 0, finest);
+        // (M - h) / h with M = 2^level, h = 2^(finer - 1)
+        column.weight = finer == 0 ? kWhole : share_of(std::exp2(level - finer + 1) - 1);
+        column.finer = read(column, finer, place, column.fine);
+        if (column.weight == kWhole) return;
+        column.coarser = read(column, finer - 1, place, column.coarse);
     }
 
-    Between read(const Column& column, int level, double place) {
+    // Has the level hold what a column reads of it, which begins at `place`.
+    const LevelStrip* read(const Column& column,
+                           int level,
+                           double place,
+                           Between& columns) {
         const int below = shape_.space_levels() - level;
         const Axis x(shape_.width(), below);
         const Axis y(shape_.height(), below);
         LevelStrip& strip = strips_.try_emplace(level, LevelStrip{x, y}).first->second;
-        const Between columns = x.around_turn(place);
+        columns = x.around_turn(place);
         strip.widen(columns);
         const double last = column.top + (view_.height - 1) * column.step;
         if (last >= 0 && column.top < shape_.height()) {
@@ -192,26 +198,24 @@ class View {
             strip.heighten(y.around(std::max(column.top, 0.0)));
             strip.heighten(y.around(std::min(last, lowest)));
         }
-        return columns;
+        return &strip;
     }
 
     [[nodiscard]] Rgba pixel(const Column& column, std::int32_t y) const {
         const double place = column.top + y * column.step;
         if (place < 0 || place >= shape_.height()) return kClear;
-        const LevelStrip& fine = strips_.at(column.level);
-        const Rgba finer = fine.pixel(column.fine, fine.down.around(place));
-        if (column.weight == kWhole) return finer;
-        const LevelStrip& coarse = strips_.at(column.level - 1);
-        return mixed(finer,
-                     coarse.pixel(column.coarse, coarse.down.around(place)),
-                     column.weight,
-                     kWayBits);
+        const LevelStrip& finer = *column.finer;
+        const Rgba fine = finer.pixel(column.fine, finer.down.around(place));
+        if (column.weight == kWhole) return fine;
+        const LevelStrip& coarser = *column.coarser;
+        const Rgba coarse = coarser.pixel(column.coarse, coarser.down.around(place));
+        return mixed(fine, coarse, column.weight, kWayBits);
     }
 
     ClipShape shape_;
     PanoramaView view_;
     std::vector<Column> columns_;
-    std::map<int, LevelStrip> strips_;
+    std::map<int, LevelStrip> strips_;  // whose places columns_ know
 };
 
 Result<void> check(const char* name, double value, double least, double most) {
