@@ -20,8 +20,9 @@ namespace haarmony::video {
 // Layers of clip-art for one canvas, lowest first.
 class ClipArt {
   public:
-    // Coordinates are parts of the canvas's height. `cell` is what one of the clip's pixels
-    // takes of the recipe's depth: 1 is the finest detail, 4 a pixel of 4 x 4 of those.
+    // Coordinates are parts of the canvas's height. `cell` is what one of the clip's
+    // pixels takes of the recipe's depth: 1 is the finest detail, 4 a pixel of 4 x 4 of
+    // those.
     explicit ClipArt(const Recipe& recipe);
 
     // What a piece of this size should be made as.

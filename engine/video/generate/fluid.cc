@@ -23,9 +23,9 @@ struct Point {
     double y = 0;
 };
 
-// Rolls in the unit square, none of which crosses its walls: the stream function is the sum
-// of strength sin(across pi x) sin(down pi y). Velocities are kept on a grid, and between its
-// points they are what lies between: a path needs many of them.
+// Rolls in the unit square, none of which crosses its walls: the stream function is the
+// sum of strength sin(across pi x) sin(down pi y). Velocities are kept on a grid, and
+// between its points they are what lies between: a path needs many of them.
 class Flow {
   public:
     explicit Flow(std::uint32_t seed) {

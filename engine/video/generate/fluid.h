@@ -1,5 +1,5 @@
-// Two fluids, the heavy one above the light one, that change places in a closed tank: fine
-// where they meet, coarse elsewhere, in space and in time.
+// Two fluids, the heavy one above the light one, that change places in a closed tank:
+// fine where they meet, coarse elsewhere, in space and in time.
 //   refine.h -> [fluid.h] -> generator.h
 //
 // Errors  none.

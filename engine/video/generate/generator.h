@@ -1,8 +1,9 @@
-// The examples of the dissertation's Figures 5.13 to 5.18, ours: sources of frames by name.
+// The examples of the dissertation's Figures 5.13 to 5.18, ours: sources of frames by
+// name.
 //   [generator.h] -> build.h
 //
-// Each is a function of its parameters: the same on every run, of any size, and as deep as
-// there is detail. Known are julia, galaxy, fluid, wind, room and panorama.
+// Each is a function of its parameters: the same on every run, of any size, and as deep
+// as there is detail. Known are julia, galaxy, fluid, wind, room and panorama.
 //
 // Errors   kInvalidArgument: param generate (no such name; the message lists all), width,
 //          height, frames, rate, or depth.

@@ -118,7 +118,8 @@ class RoomAround {
 // Angles go around with x; slopes are 0 at the picture's middle.
 class PanoramaField : public Field {
   public:
-    // Nothing is hidden between samples that are as close as `closest`, a part of the turn.
+    // Nothing is hidden between samples that are as close as `closest`, a part of the
+    // turn.
     PanoramaField(const FrameFormat& format, double closest)
         : turn_(kTurn / format.width),
           middle_(0.5 * format.height),

@@ -1,5 +1,5 @@
-// All around a square room: windows with moving clouds, doors, and a picture on a wall that is
-// the video of another room.
+// All around a square room: windows with moving clouds, doors, and a picture on a wall
+// that is the video of another room.
 //   scene.h, room.h, compose.h -> [panorama.h] -> generator.h
 //
 // Shape   the width is 360 degrees, periodic; what is vertical stays vertical.

@@ -1,8 +1,8 @@
 // A frame painted as deep as it has detail: the dissertation's adaptive refinement.
 //   [refine.h] -> julia.h, fluid.h, scene.h, ... -> frame_source.h
 //
-// A field is asked for the 64 pixels of a square, and says whether smaller ones would show
-// more; where they would, its four quadrants are asked in turn.
+// A field is asked for the 64 pixels of a square, and says whether smaller ones would
+// show more; where they would, its four quadrants are asked in turn.
 //
 // Units    finest pixels of the frame; the centre of pixel (0, 0) is at (0.5, 0.5).
 // Errors   none; a wrong shape is a caller's bug and asserts.
@@ -36,8 +36,8 @@ struct FieldSquare {
 class Field {
   public:
     virtual ~Field() = default;
-    // The pixels of a square, and whether smaller ones would show more. Also asked for what
-    // lies beyond the picture's edge; that is cut off.
+    // The pixels of a square, and whether smaller ones would show more. Also asked for
+    // what lies beyond the picture's edge; that is cut off.
     [[nodiscard]] virtual bool sample(const FieldSquare& square, Brick& brick) const = 0;
     // How many frames it stays.
     [[nodiscard]] virtual std::int64_t stays() const { return 1; }

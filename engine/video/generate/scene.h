@@ -1,11 +1,12 @@
 // Flat shapes on top of each other: what the generated clip-art is drawn with.
 //   [scene.h] -> refine.h, room.h, panorama.h
 //
-// Shape    rectangles, ellipses and thick lines; the last one that covers a point is seen.
+// Shape    rectangles, ellipses and thick lines; the last one that covers a point is
+//          seen.
 // Units    the drawing's own; Scene::Field says how many of them a pixel is.
 // Errors   none.
-// Cost     of a square: one look at each shape, and for each pixel one at each shape whose
-//          outline crosses the square.
+// Cost     of a square: one look at each shape, and for each pixel one at each shape
+//          whose outline crosses the square.
 #pragma once
 
 #include <vector>

@@ -4,8 +4,8 @@
 // Frames that the clip has only once, however long they stay, are handed on once, with
 // SourceFrame::repeats.
 //
-// Errors   range_frames: a range that is empty or not within the clip, param frames; next():
-//          what the clip's storage meets.
+// Errors   range_frames: a range that is empty or not within the clip, param frames;
+//          next(): what the clip's storage meets.
 // Source   sec. 5.4.4 ["load video fragments"].
 #pragma once
 

@@ -1,20 +1,17 @@
 // Clips of any length, size and depth on top of each other, frame by frame.
 //   placement.h, place.h, composite.h -> [compose.h] -> build.h
 //
-// The single frames are placed and composited, lowest layer first onto a clear canvas, with
-// a = the layer and b = what lies below; averages are taken from the result when it is built,
-// never composited. Outside its frames a layer is clear, which an operator such as a_in_b
-// shows. Frames are lined up one to one, whatever the clips' rates.
+// Single frames are placed and composited, the lowest layer first onto a clear canvas, with
+// a = the layer and b = what lies below. Outside its frames a layer is clear. Frames are
+// lined up one to one, whatever the clips' rates.
 //
-// Errors   param layers: none at all, or too many; op, scale, translate, at_level, start,
-//          frames: of one layer, whose number is in the message; width, height, frames: a
-//          canvas outside the limits of a clip. next(): what the clips' storage meets.
+// Errors   param layers (none, or too many); op, scale, translate, at_level, start or frames
+//          of the layer whose number is in the message; width, height, rate or frames of
+//          the result. next(): what the clips' storage meets.
 // Threads  one caller.
-// Cost     linear in the squares of what is composited and of the result, for every change:
-//          layers that stay, and all that lies below them, are placed and composited once,
-//          and frames in which nothing changes are one SourceFrame.
-// Source   sec. 5.3.3, CompositeTimeTrees(), sec. 5.4.4; ERRATA of the project, video 22 to
-//          25.
+// Cost     linear in the squares of what changes: layers that stay, and all that lies below
+//          them, are placed and composited once.
+// Source   sec. 5.3.3, CompositeTimeTrees(), sec. 5.4.4; ERRATA of the project, video 22-25.
 #pragma once
 
 #include <cstdint>
@@ -51,8 +48,8 @@ struct CompositionLayer {
 [[nodiscard]] Result<ClipShape> composed_shape(std::span<const CompositionLayer> layers,
                                                const FrameFormat& canvas);
 
-// The smallest box that holds all layers: a canvas that has grown to what is on it. Give its
-// size as the canvas and take its left and top from every layer (moved_by).
+// The smallest box that holds all layers: a canvas that has grown to what is on it. Give
+// its size as the canvas and take its left and top from every layer (moved_by).
 [[nodiscard]] Result<CanvasBox> composed_box(std::span<const CompositionLayer> layers);
 
 // The placement moved by pixels of the canvas.
@@ -83,7 +80,8 @@ class Composition final : public FrameSource {
         ImageTree canvas;
     };
     Composition(std::vector<CompositionLayer> layers, const ClipShape& shape);
-    // Whether it has changed. `until` becomes the frame where it changes next, if earlier.
+    // Whether it has changed. `until` becomes the frame where it changes next, if
+    // earlier.
     [[nodiscard]] Result<bool> show(std::size_t layer, std::int64_t& until);
 
     std::vector<CompositionLayer> layers_;

@@ -9,8 +9,8 @@
 namespace haarmony::video {
 namespace {
 
-// What is multiplied with one pixel's alpha is a function of the other's: 0, 255, the other
-// alpha or 255 less that, each of them base ^ (mask & alpha) in 8 bits.
+// What is multiplied with one pixel's alpha is a function of the other's: 0, 255, the
+// other alpha or 255 less that, each of them base ^ (mask & alpha) in 8 bits.
 struct Factor {
     std::uint8_t base;
     std::uint8_t mask;
@@ -49,7 +49,8 @@ const Factors& factors_of(Operator op) { return kFactors[static_cast<std::size_t
 Rgba mix(Rgba a, Rgba b, const Factors& factors) {
     const std::uint32_t fa = factors.a.of(b.a), fb = factors.b.of(a.a);
     const std::uint32_t wa = fa * a.a, wb = fb * b.a;
-    // Where one of the two is nothing and the other whole, rounding gives it back unchanged.
+    // Where one of the two is nothing and the other whole, rounding gives it back
+    // unchanged.
     if (wb == 0 && fa == 255) return canonical(a);
     if (wa == 0 && fb == 255) return canonical(b);
     const std::uint32_t both = wa + wb;

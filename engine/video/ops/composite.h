@@ -1,11 +1,12 @@
 // The twelve operators of Porter and Duff, on pixels and on whole frames.
 //   image_tree.h -> [composite.h] -> compose.h
 //
-// Scale    Fa and Fb in 0 .. 255; the result's alpha is (Fa aA + Fb aB) / 255, its colour the
-//          mean weighted with Fa aA and Fb aB, each rounded once, half up; clear is clear.
+// Scale    Fa and Fb in 0 .. 255; the result's alpha is (Fa aA + Fb aB) / 255, its colour
+//          the mean weighted with Fa aA and Fb aB, each rounded once, half up; clear is
+//          clear.
 // Errors   parse_operator names the word that is no operator, param op.
-// Source   sec. 5.3.3, CompositePixels(), CompositeFrames(), on leaf frames; ERRATA of the
-//          project, video 22 to 24.
+// Source   sec. 5.3.3, CompositePixels(), CompositeFrames(), on leaf frames; ERRATA of
+//          the project, video 22 to 24.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // Sources of frames, one after the other.
 //   clip_frames.h -> [concatenate.h] -> build.h
 //
-// Errors   concatenate(): no source at all, or one whose frames are of another size than the
-//          first's, param clips; next(): what the sources meet.
+// Errors   concatenate(): no source at all, or one whose frames are of another size than
+//          the first's, param clips; next(): what the sources meet.
 #pragma once
 
 #include <memory>

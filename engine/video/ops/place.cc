@@ -13,8 +13,8 @@
 namespace haarmony::video {
 namespace {
 
-// Everything below is in units of the canvas: its finest pixels or, where the root square is
-// smaller than a brick, the brick's pixels.
+// Everything below is in units of the canvas: its finest pixels or, where the root square
+// is smaller than a brick, the brick's pixels.
 struct Box {
     std::int64_t left = 0;
     std::int64_t top = 0;

@@ -1,13 +1,13 @@
 // A tree scaled and moved onto a canvas in one walk: the dissertation's "third function".
 //   leaf_tree.h, placement.h -> [place.h] -> compose.h, preview.h
 //
-// Shape    the canvas is a frame of its own format, clear where the tree does not reach; what
-//          reaches beyond it is cut off.
+// Shape    the canvas is a frame of its own format, clear where the tree does not reach;
+//          what reaches beyond it is cut off.
 // Errors   none; a wrong shape is a caller's bug and asserts.
-// Cost     linear in the squares of the tree and of the result, both of which are counted:
-//          what is flat is looked at once, however large.
-// Source   sec. 5.3.3, TranslateFrame(), ScaleNode(), PutRectInTree(), on leaf frames; ERRATA
-//          of the project, video 18 to 21.
+// Cost     linear in the squares of the tree and of the result, both of which are
+//          counted: what is flat is looked at once, however large.
+// Source   sec. 5.3.3, TranslateFrame(), ScaleNode(), PutRectInTree(), on leaf frames;
+//          ERRATA of the project, video 18 to 21.
 #pragma once
 
 #include <cstdint>

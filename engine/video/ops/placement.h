@@ -1,12 +1,12 @@
 // How large a clip is shown and where: a scale, then a translation.
 //   [placement.h] -> place.h, compose.h
 //
-// Scale    sx / 2^shrink and sy / 2^shrink. A shrink of n shows the clip's space level L - n,
-//          whose pixels are exact averages, each repeated sx times across and sy times down.
-//          The dissertation shrinks by levels added above instead, which keeps all detail:
-//          for that, scale the other clips up.
-// Units    dx, dy in pixels of space level at_level of the clip: 2^(L - at_level) pixels of
-//          the canvas each. Positive is right and down.
+// Scale    sx / 2^shrink and sy / 2^shrink. A shrink of n shows the clip's space level
+//          L - n, whose pixels are exact averages, each repeated sx times across and sy
+//          times down. The dissertation shrinks by levels added above instead, which
+//          keeps all detail: for that, scale the other clips up.
+// Units    dx, dy in pixels of space level at_level of the clip: 2^(L - at_level) pixels
+//          of the canvas each. Positive is right and down.
 // Errors   kInvalidArgument; param is scale, translate or at_level.
 // Source   sec. 5.3.3, "Translating a video clip", "Scaling a video clip"; ERRATA of the
 //          project, video 20, 21.
@@ -48,8 +48,8 @@ struct CanvasBox {
     friend bool operator==(const CanvasBox&, const CanvasBox&) = default;
 };
 
-// Refuses a scale of zero, a shrink below level 0, an at_level outside 0 .. L, and what is
-// larger or further away than 2^32 pixels.
+// Refuses a scale of zero, a shrink below level 0, an at_level outside 0 .. L, and what
+// is larger or further away than 2^32 pixels.
 [[nodiscard]] Result<CanvasBox> placed_box(const ClipShape& clip,
                                            const Placement& placement);
 

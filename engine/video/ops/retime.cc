@@ -36,7 +36,8 @@ class Retimed final : public FrameSource {
             clip_.frame({time_level_, index}, shape.space_levels());
         if (!found) return found.error();
         leaf_tree(*found, frame.tree);
-        // The same is shown as long as floor(j speed) stays before the end of what is stored.
+        // The same is shown as long as floor(j speed) stays before the end of what is
+        // stored.
         const std::int64_t end =
             std::min(frames_,
                      ceil_of(shape.frames_of((*found).stored()).end * speed_.denominator,

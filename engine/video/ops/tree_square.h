@@ -4,8 +4,8 @@
 //
 // Errors   none; a wrong quadrant is a caller's bug.
 // Threads  as the tree, which must outlive it.
-// Source   sec. 5.3.3, GC() ["returns its argument node if it is a color, or the requested
-//          child if it is a subtree"].
+// Source   sec. 5.3.3, GC() ["returns its argument node if it is a color, or the
+//          requested child if it is a subtree"].
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,8 @@ std::vector<Picture> shown(std::string_view name, const GeneratorParameters& wan
     return testing::pictures_of(*made(name, wanted));
 }
 
-// Bricks of the first frame, as a part of those that a complete tree has at its finest level.
+// Bricks of the first frame, as a part of those that a complete tree has at its finest
+// level.
 double bricks_of(std::string_view name, std::int32_t side) {
     SourceFrame frame;
     EXPECT_TRUE(*made(name, parameters(side, side, 2))->next(frame));

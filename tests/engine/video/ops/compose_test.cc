@@ -142,8 +142,8 @@ TEST(Composition, LayersThatStayAreNotVisitedAgain) {
         (void)pictures_of(**composition);
         visits.push_back((*composition)->visited().read);
     }
-    // Once all; then, for each of four frames, the small layer, placed and composited with
-    // the 64 bricks below: their own nodes and those of the layer, twice at most.
+    // Once all; then, for each of four frames, the small layer, placed and composited
+    // with the 64 bricks below: their own nodes and those of the layer, twice at most.
     EXPECT_LE(visits[1] - visits[0], 4 * 2 * (64 + 16 + 4 + 1 + 4));
     EXPECT_GT(visits[1], visits[0]);
 }

@@ -1,4 +1,5 @@
-// Porter and Duff's operators, on pixels against their definition and on trees against pixels.
+// Porter and Duff's operators, on pixels against their definition and on trees against
+// pixels.
 #include "engine/video/ops/composite.h"
 
 #include <gtest/gtest.h>

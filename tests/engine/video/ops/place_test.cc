@@ -82,11 +82,13 @@ TEST(Place, WhatLiesBeyondTheCanvasIsGone) {
 }
 
 TEST(Place, TwiceTheFlatBackgroundIsFree) {
-    // A detailed corner on a flat background that grows, moved by an odd number of pixels.
+    // A detailed corner on a flat background that grows, moved by an odd number of
+    // pixels.
     std::vector<std::int64_t> visits;
     for (int levels = 10; levels <= 16; ++levels) {
         const FrameFormat format{1 << levels, 1 << levels, {25, 1}};
-        // 64 x 64 pixels of detail in the middle of nothing, as far down as there are levels.
+        // 64 x 64 pixels of detail in the middle of nothing, as far down as there are
+        // levels.
         const ImageTree detail = random_tree({64, 64, {25, 1}}, 1);
         ImageTree tree, placed;
         place(detail, 6, {1, 1, 512, 512, 0}, format, tree);

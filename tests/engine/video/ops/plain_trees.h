@@ -1,5 +1,5 @@
-// Trees at random, and pixels moved one by one: the oracle of engine/video/ops, of which it shares no
-// code.
+// Trees at random, and pixels moved one by one: the oracle of engine/video/ops, of which
+// it shares no code.
 #pragma once
 
 #include <cstdint>

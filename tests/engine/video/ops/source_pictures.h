@@ -1,4 +1,5 @@
-// What a source of frames gives, as pictures; and sources that fail when they are told to.
+// What a source of frames gives, as pictures; and sources that fail when they are told
+// to.
 #pragma once
 
 #include <cstdint>
