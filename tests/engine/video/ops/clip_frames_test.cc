@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/engine/video/failing_clip.h"
 #include "tests/engine/video/ops/source_pictures.h"
 #include "tests/engine/video/plain_clip.h"
 
