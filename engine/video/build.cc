@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "engine/video/frame_spool.h"
+#include "engine/video/link_clip.h"
 #include "engine/video/spooled_nodes.h"
 #include "engine/video/time_sums.h"
-#include "engine/video/up_links.h"
 
 namespace haarmony::video {
 namespace {
@@ -79,68 +79,6 @@ Result<SpooledNodes> read_frames(FrameSource& source,
     return sums.finish();
 }
 
-// Pass 2.
-class Linker {
-  public:
-    Linker(const ClipShape& shape,
-           const SpooledNodes& nodes,
-           FrameSpool& spool,
-           ClipSink& sink,
-           Progress& progress)
-        : shape_(shape),
-          nodes_(nodes),
-          spool_(spool),
-          sink_(sink),
-          progress_(progress),
-          links_(shape.space_levels(), progress.options.delta) {}
-
-    // The siblings at an address and all below them.
-    Result<void> write(const SiblingAddress& address, const TimeNode* parent) {
-        const int k = address.time_level;
-        const std::int64_t first = k == 0 ? 0 : 2 * address.index;
-        links_.descend();
-        Siblings siblings;
-        siblings.address = address;
-        siblings.nodes.count = static_cast<int>(
-            std::min(std::int64_t{k == 0 ? 1 : 2}, shape_.nodes_at(k) - first));
-        for (int i = 0; i < siblings.nodes.count; ++i) {
-            const Result<void> read = spool_.get(node(k, first + i).frame, exact_);
-            if (!read) return read;
-            Result<TimeNode> linked = links_.link(exact_, parent);
-            if (!linked) return std::move(linked).error();
-            siblings.nodes.node[static_cast<std::size_t>(i)] = *std::move(linked);
-        }
-        siblings.layers = links_.layers();
-        const SiblingNodes linked = siblings.nodes;
-        const Result<void> taken = sink_.add(std::move(siblings));
-        if (!taken) return taken;
-        progress_.nodes_written += linked.count;
-        const Result<void> told = progress_.tell();
-        if (!told) return told;
-        for (int i = 0; i < linked.count; ++i) {
-            if (node(k, first + i).uniform) continue;
-            const Result<void> below =
-                write({k + 1, first + i}, &linked.node[static_cast<std::size_t>(i)]);
-            if (!below) return below;
-        }
-        links_.ascend();
-        return {};
-    }
-
-  private:
-    [[nodiscard]] const SpooledNode& node(int time_level, std::int64_t index) const {
-        return nodes_.at(shape_.time_levels() - time_level, index);
-    }
-
-    const ClipShape& shape_;
-    const SpooledNodes& nodes_;
-    FrameSpool& spool_;
-    ClipSink& sink_;
-    Progress& progress_;
-    UpLinks links_;
-    ExactFrame exact_;
-};
-
 }  // namespace
 
 Result<ClipShape> build(FrameSource& source,
@@ -157,12 +95,14 @@ Result<ClipShape> build(FrameSource& source,
     const Result<ClipShape> shape =
         ClipShape::make(source.format(), progress.frames_read);
     if (!shape) return shape.error();
-    Result<void> done = sink.begin(*shape, options.delta);
-    if (!done) return done.error();
-    done = Linker(*shape, *nodes, frames, sink, progress).write({0, 0}, nullptr);
-    if (!done) return done.error();
-    done = sink.finish();
-    if (!done) return done.error();
+    LinkOptions linking;
+    linking.delta = options.delta;
+    linking.written = [&progress](std::int64_t written) {
+        progress.nodes_written = written;
+        return progress.tell();
+    };
+    const Result<void> linked = link_clip(*shape, *nodes, frames, sink, linking);
+    if (!linked) return linked.error();
     return *shape;
 }
 

@@ -85,7 +85,7 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
     if (level == finest_) {
         const Brick& brick = frame.bricks[exact.brick];
         const bool linked =
-            shown != nullptr && within(brick, chain_.brick(level, shown->brick), delta_);
+            shown != nullptr && same_bytes(brick, chain_.brick(level, shown->brick));
         return resolved = linked ? above : own_finest(brick);
     }
     LinkedNode made;
