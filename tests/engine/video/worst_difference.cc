@@ -7,20 +7,23 @@
 
 namespace haarmony::video::testing {
 
-std::uint32_t worst_difference(const TimeTree& exact, const TimeTree& clip) {
+WorstDifference worst_difference(const TimeTree& exact, const TimeTree& clip) {
     const ClipShape& shape = exact.shape();
     assert(shape == clip.shape());
-    std::uint32_t worst = 0;
+    WorstDifference worst;
     for (int k = 0; k <= shape.time_levels(); ++k) {
         for (std::int64_t i = 0; i < shape.nodes_at(k); ++i) {
             const Frame want = *exact.frame({k, i}, shape.space_levels());
             const Frame got = *clip.frame({k, i}, shape.space_levels());
             for (int level = 0; level <= shape.space_levels(); ++level) {
+                const bool leaf =
+                    k == shape.time_levels() && level == shape.space_levels();
+                std::uint32_t& largest = leaf ? worst.leaf : worst.coarse;
                 for (const Edge edge : {Edge::kPad, Edge::kNormalize}) {
                     const Picture a = shown_picture(want, level, edge);
                     const Picture b = shown_picture(got, level, edge);
                     for (std::size_t p = 0; p < a.pixels.size(); ++p) {
-                        worst = std::max(worst, difference(a.pixels[p], b.pixels[p]));
+                        largest = std::max(largest, difference(a.pixels[p], b.pixels[p]));
                     }
                 }
             }

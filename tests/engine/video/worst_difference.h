@@ -7,8 +7,16 @@
 
 namespace haarmony::video::testing {
 
-// The largest difference() of any pixel of any time node at any space level, of both edges.
+// The largest difference() of any pixel, of both edges.
+struct WorstDifference {
+    std::uint32_t leaf = 0;    // of single frames at the finest space level
+    std::uint32_t coarse = 0;  // of all other pictures
+
+    [[nodiscard]] std::uint32_t anywhere() const { return leaf < coarse ? coarse : leaf; }
+};
+
 // Requires: clips of one shape whose frames can be read.
-[[nodiscard]] std::uint32_t worst_difference(const TimeTree& exact, const TimeTree& clip);
+[[nodiscard]] WorstDifference worst_difference(const TimeTree& exact,
+                                               const TimeTree& clip);
 
 }  // namespace haarmony::video::testing
