@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "engine/video/space_sums.h"
 #include "engine/video/sum_kernel.h"
 #include "engine/video/sum_tree.h"
 
@@ -18,29 +19,6 @@ constexpr auto kPad = static_cast<std::size_t>(Edge::kPad);
 constexpr auto kNormalize = static_cast<std::size_t>(Edge::kNormalize);
 
 std::uint32_t word_of(Rgba pixel) { return std::bit_cast<std::uint32_t>(pixel); }
-
-// Where quadrant q of a brick begins.
-constexpr std::size_t corner_of(std::size_t q) {
-    return (q >> 1) * kHalf * kSide + (q & 1) * kHalf;
-}
-
-using Sums = std::array<PixelSum, kBrickPixels>;
-
-// The sum of the 2 x 2 sums at (2 x, 2 y) of a square with rows of `side`.
-template <typename Sum>
-Sum sum_of_four(const Sum* sums, std::size_t side, std::size_t x, std::size_t y) {
-    const Sum* const upper = sums + 2 * y * side + 2 * x;
-    Sum sum = upper[0];
-    sum += upper[1];
-    sum += upper[side];
-    sum += upper[side + 1];
-    return sum;
-}
-
-// Position i of a quadrant, in the brick.
-constexpr std::size_t in_quadrant(std::size_t corner, std::size_t i) {
-    return corner + i / kHalf * kSide + i % kHalf;
-}
 
 struct EdgeNode {
     PixelWords words;
@@ -55,7 +33,7 @@ struct EdgeNode {
     [[nodiscard]] bool is_finer_than(const PixelWords& above,
                                      std::size_t quadrant) const {
         if (has_child()) return true;
-        const std::uint32_t* const corner = &above[corner_of(quadrant)];
+        const std::uint32_t* const corner = &above[quadrant_corner(quadrant)];
         for (std::size_t i = 0; i < words.size(); ++i) {
             if (words[i] != corner[i / kSide / 2 * kSide + i % kSide / 2]) return true;
         }
@@ -64,23 +42,10 @@ struct EdgeNode {
     friend bool operator==(const EdgeNode&, const EdgeNode&) = default;
 };
 
-// A square averaged, before it is known whether it becomes a node. Its sums are over all of
-// the finest pixels in each; what is not used is not cleared either.
+// A square averaged, before it is known whether it becomes a node.
 struct Averaged {
-    [[nodiscard]] PixelSum sum(std::size_t i, std::uint64_t samples) const {
-        if (is_wide) return sum_at(wide, samples, i);
-        if (!is_opaque) return sum_at(narrow, samples, i);
-        const auto weighed = [this, i](std::size_t plane) {
-            return std::uint64_t{255} * narrow[plane][i];
-        };
-        return {weighed(0), weighed(1), weighed(2), 255 * samples};
-    }
-
-    bool is_wide;
-    bool is_opaque;  // narrow sums are those of colour alone, without plane a
-    bool is_same;    // both edges show the same; then only kPad's is there
-    NarrowSums narrow;
-    WideSums wide;
+    SpaceSums sums;
+    bool is_same;  // both edges show the same; then only kPad's is there
     std::array<EdgeNode, kEdges> edge;
 };
 
@@ -104,7 +69,7 @@ class Averager {
         out_.root[kPad] = emit(root.edge[kPad]);
         out_.root[kNormalize] =
             root.is_same ? out_.root[kPad] : emit(root.edge[kNormalize]);
-        average_apex(root);
+        average_apex(root.sums);
         out_.bounds = in_pixels();
     }
 
@@ -126,11 +91,6 @@ class Averager {
 
     [[nodiscard]] std::uint64_t frames() const {
         return static_cast<std::uint64_t>(sums_.frames());
-    }
-    // How many finest pixels a pixel of a level is, and of how many frames.
-    [[nodiscard]] int log2_area(int level) const { return 2 * (finest_ - level); }
-    [[nodiscard]] std::uint64_t samples_at(int level) const {
-        return frames() << log2_area(level);
     }
     // The mean of pixel (x, y) of a level.
     [[nodiscard]] Rgba normalized(const PixelSum& sum,
@@ -158,7 +118,7 @@ class Averager {
                     2 * y + static_cast<std::int64_t>(q >> 1),
                     below[q]);
         }
-        add_up(node, level, below, out);
+        add_up(node, level, below, out.sums);
         average_brick(level, x, y, out);
         extend_bounds(node, level, x, y, out);
         keep_finer(node, below, out);
@@ -168,118 +128,31 @@ class Averager {
     void add_up(const SumNode& node,
                 int level,
                 const std::array<Averaged, 4>& below,
-                Averaged& out) const {
-        const std::uint64_t samples = samples_at(level);
-        out.is_opaque = samples <= kMostOpaqueSamples;
-        for (std::size_t q = 0; q < 4 && out.is_opaque; ++q) {
-            out.is_opaque = node.child[q] == kNoDetail ? node.width == SumWidth::kShort
-                                                       : below[q].is_opaque;
+                SpaceSums& out) const {
+        bool opaque = true;
+        bool is_leaf = true;
+        for (std::size_t q = 0; q < 4; ++q) {
+            const bool has_child = node.child[q] != kNoDetail;
+            is_leaf &= !has_child;
+            opaque &=
+                has_child ? below[q].sums.is_opaque() : node.width == SumWidth::kShort;
         }
-        out.is_wide = !out.is_opaque && samples > kMostSamples;
-        if (level == finest_ && out.is_opaque) {
-            widen(sums_.short_brick(node), out.narrow);
+        out.begin(frames(), finest_ - level, opaque);
+        if (is_leaf && level == finest_) {
+            sums_.visit(node, [&out](const auto& sums) { out.take_finest(sums); });
             return;
         }
         for (std::size_t q = 0; q < 4; ++q) {
-            if (node.child[q] == kNoDetail) {
-                sums_.visit(node, [&](const auto& sums) { take(sums, q, level, out); });
-            } else if (out.is_wide) {
-                add_up_wide(below[q], q, level, out);
+            if (node.child[q] != kNoDetail) {
+                out.take(below[q].sums, q);
             } else {
-                add_up_narrow(below[q], q, level, out);
+                sums_.visit(node, [&out, q](const auto& sums) { out.take(sums, q); });
             }
-        }
-    }
-
-    // A quadrant without finer detail.
-    void take(const ShortSums& sums, std::size_t q, int level, Averaged& out) const {
-        if (out.is_opaque) return take_planes(sums, q, level, out);
-        take_each(sums, q, level, out);
-    }
-    void take(const NarrowSums& sums, std::size_t q, int level, Averaged& out) const {
-        if (!out.is_wide) return take_planes(sums, q, level, out);
-        take_each(sums, q, level, out);
-    }
-    void take(const WideSums& sums, std::size_t q, int level, Averaged& out) const {
-        take_each(sums, q, level, out);
-    }
-    template <typename Sums>
-    void take_planes(const Sums& sums, std::size_t q, int level, Averaged& out) const {
-        const int below = log2_area(level);
-        for (std::size_t plane = 0; plane < sums.size(); ++plane) {
-            const auto* const from = sums[plane].data() + corner_of(q);
-            std::uint32_t* const to = out.narrow[plane].data() + corner_of(q);
-            for (std::size_t y = 0; y < kHalf; ++y) {
-                for (std::size_t x = 0; x < kHalf; ++x) {
-                    to[y * kSide + x] = std::uint32_t{from[y * kSide + x]} << below;
-                }
-            }
-        }
-    }
-    template <typename Sums>
-    void take_each(const Sums& sums, std::size_t q, int level, Averaged& out) const {
-        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-            const std::size_t at = in_quadrant(corner_of(q), i);
-            const PixelSum sum = sum_at(sums, frames(), at);
-            const int below = log2_area(level);
-            put(at,
-                {sum.r << below, sum.g << below, sum.b << below, sum.a << below},
-                out);
-        }
-    }
-    static void put(std::size_t at, const PixelSum& sum, Averaged& out) {
-        const std::array<std::uint64_t, 4> channels = {sum.r, sum.g, sum.b, sum.a};
-        for (std::size_t plane = 0; plane < channels.size(); ++plane) {
-            if (out.is_wide) {
-                out.wide[plane][at] = channels[plane];
-            } else {
-                out.narrow[plane][at] = static_cast<std::uint32_t>(channels[plane]);
-            }
-        }
-    }
-
-    // Requires: neither is wide.
-    void add_up_narrow(const Averaged& below,
-                       std::size_t q,
-                       int level,
-                       Averaged& out) const {
-        const std::size_t corner = corner_of(q);
-        halve(below.narrow, below.is_opaque ? 3 : 4, corner, out.narrow);
-        if (!below.is_opaque || out.is_opaque) return;
-        const auto alpha = static_cast<std::uint32_t>(255 * samples_at(level));
-        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-            const std::size_t at = in_quadrant(corner, i);
-            for (std::size_t plane = 0; plane < 3; ++plane) out.narrow[plane][at] *= 255;
-            out.narrow[3][at] = alpha;
-        }
-    }
-
-    void add_up_wide(const Averaged& below,
-                     std::size_t q,
-                     int level,
-                     Averaged& out) const {
-        Sums finer;
-        for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            finer[i] = below.sum(i, samples_at(level + 1));
-        }
-        for (std::size_t i = 0; i < kBrickPixels / 4; ++i) {
-            put(in_quadrant(corner_of(q), i),
-                sum_of_four(finer.data(), kSide, i % kHalf, i / kHalf),
-                out);
         }
     }
 
     void average_brick(int level, std::int64_t x, std::int64_t y, Averaged& out) const {
-        const std::uint64_t samples = samples_at(level);
-        PixelWords& words = out.edge[kPad].words;
-        if (out.is_wide) {
-            for (std::size_t i = 0; i < kBrickPixels; ++i) {
-                words[i] = word_of(mean(out.sum(i, samples), samples));
-            }
-        } else {
-            (out.is_opaque ? mean_of_opaque : mean_of)(
-                out.narrow, static_cast<std::uint32_t>(samples), words);
-        }
+        out.sums.mean_into(out.edge[kPad].words);
         const Box box = square(level - kBrickLevel, x, y);
         out.is_same = box.right <= width_ && box.bottom <= height_;
         // Each of the finest pixels lies inside or outside as a whole.
@@ -289,7 +162,7 @@ class Averager {
         }
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
             out.edge[kNormalize].words[i] = word_of(
-                normalized(out.sum(i, samples),
+                normalized(out.sums.at(i),
                            level,
                            x * kBrickSide + static_cast<std::int64_t>(i % kSide),
                            y * kBrickSide + static_cast<std::int64_t>(i / kSide)));
@@ -329,10 +202,10 @@ class Averager {
         return static_cast<std::uint32_t>(out_.nodes.size() - 1);
     }
 
-    void average_apex(const Averaged& root) {
-        Sums sums;
+    void average_apex(const SpaceSums& root) {
+        std::array<PixelSum, kBrickPixels> sums;
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
-            sums[i] = root.sum(i, samples_at(kBrickLevel));
+            sums[i] = root.at(i);
         }
         for (int level = kBrickLevel - 1; level >= 0; --level) {
             const std::size_t side = std::size_t{1} << level;
@@ -340,7 +213,7 @@ class Averager {
                 // Rows shrink in place: never ahead of the reading.
                 sums[i] = sum_of_four(sums.data(), 2 * side, i % side, i / side);
                 const std::size_t at = static_cast<std::size_t>(apex_offset(level)) + i;
-                out_.apex[kPad][at] = mean(sums[i], samples_at(level));
+                out_.apex[kPad][at] = mean(sums[i], frames() << 2 * (finest_ - level));
                 out_.apex[kNormalize][at] =
                     normalized(sums[i],
                                level,

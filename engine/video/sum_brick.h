@@ -71,14 +71,31 @@ void add_planes(const std::array<SumPlane<Sum>, N>& added,
     }
 }
 
+// The sum of the 2 x 2 sums at (2 x, 2 y) of a square with rows of `side`.
+[[nodiscard]] inline PixelSum sum_of_four(const PixelSum* sums,
+                                          std::size_t side,
+                                          std::size_t x,
+                                          std::size_t y) {
+    const PixelSum* const upper = sums + 2 * y * side + 2 * x;
+    PixelSum sum = upper[0];
+    sum += upper[1];
+    sum += upper[side];
+    sum += upper[side + 1];
+    return sum;
+}
+
+// Where quadrant q of a brick begins.
+[[nodiscard]] constexpr std::size_t quadrant_corner(std::size_t q) {
+    constexpr std::size_t kHalf = kBrickSide / 2;
+    return (q >> 1) * kHalf * kBrickSide + (q & 1) * kHalf;
+}
+
 // A quadrant of 8 x 8 values with twice the detail.
 template <typename Value>
 [[nodiscard]] std::array<Value, kBrickPixels> quadrant_of(
     const std::array<Value, kBrickPixels>& values,
     std::size_t quadrant) {
-    constexpr std::size_t kHalf = kBrickSide / 2;
-    const Value* const corner =
-        &values[(quadrant >> 1) * kHalf * kBrickSide + (quadrant & 1) * kHalf];
+    const Value* const corner = &values[quadrant_corner(quadrant)];
     std::array<Value, kBrickPixels> finer;
     for (std::size_t y = 0; y < kBrickSide; ++y) {
         for (std::size_t x = 0; x < kBrickSide; ++x) {

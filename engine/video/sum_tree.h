@@ -39,12 +39,6 @@ class SumTree {
     [[nodiscard]] std::uint32_t root() const { return 0; }
     [[nodiscard]] const SumNode& node(std::uint32_t at) const { return nodes_[at]; }
 
-    // Requires: a node that has a brick of this width.
-    [[nodiscard]] const ShortSums& short_brick(const SumNode& node) const {
-        assert(node.brick != kNoDetail && node.width == SumWidth::kShort);
-        return short_[node.brick];
-    }
-
     // Calls `visitor` with a node's ShortSums, NarrowSums or WideSums.
     // Requires: a node that has a brick.
     template <typename Visitor>

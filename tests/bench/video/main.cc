@@ -1,6 +1,7 @@
 // haarmony-bench-video: what building a clip costs, in turns with plain ways to do the same,
 // in one process, by the processor time of the thread.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "engine/video/clip_shape.h"
 #include "tests/bench/video/means.h"
@@ -20,6 +21,9 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 10000));
 
     CLI11_PARSE(app, argc, argv);
-    if (means_command->parsed()) bench::measure_means(means);
+    if (means_command->parsed() && !bench::measure_means(means)) {
+        std::fputs("the means differ\n", stderr);
+        return 1;
+    }
     return 0;
 }

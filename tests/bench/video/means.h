@@ -11,6 +11,7 @@ struct MeansOptions {
     int rounds = 15;
 };
 
-void measure_means(const MeansOptions& options);
+// False where the plain mean is another.
+[[nodiscard]] bool measure_means(const MeansOptions& options);
 
 }  // namespace haarmony::video::bench
