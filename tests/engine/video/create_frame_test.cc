@@ -23,12 +23,6 @@ constexpr int kSizes[][2] = {{1, 1},
                              {70, 5},
                              {100, 60}};
 
-ImageTree tree_of(const Picture& picture) {
-    ImageTree tree;
-    create_frame(picture.view(), tree);
-    return tree;
-}
-
 TEST(CreateFrame, ShowsThePicture) {
     std::uint32_t seed = 1;
     for (const auto& [width, height] : kSizes) {

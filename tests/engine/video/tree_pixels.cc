@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
+
+#include "engine/video/exact_mean.h"
 
 namespace haarmony::video::testing {
 namespace {
@@ -113,6 +116,37 @@ Picture painted(const std::vector<LeafSquare>& leaves, const FrameFormat& format
         }
     }
     return picture;
+}
+
+RawClip blocks(int width, int height, int frames, std::uint32_t seed) {
+    RawClip clip{{width, height, {25, 1}}, {}};
+    for (int t = 0; t < frames; ++t) {
+        clip.frames.push_back(
+            painted(random_leaves(clip.format, seed + static_cast<std::uint32_t>(t)),
+                    clip.format));
+    }
+    return clip;
+}
+
+RawClip opaque(RawClip clip) {
+    for (Picture& frame : clip.frames) {
+        for (Rgba& pixel : frame.pixels) pixel.a = 255;
+    }
+    return clip;
+}
+
+ImageTree tree_of(const Picture& picture) {
+    ImageTree tree;
+    create_frame(picture.view(), tree);
+    return tree;
+}
+
+ExactFrame mean_of(const RawClip& clip) {
+    FrameSum sum(clip.format);
+    for (const Picture& frame : clip.frames) sum.add(tree_of(frame), 1);
+    ExactFrame frame;
+    sum.mean_into(frame);
+    return frame;
 }
 
 }  // namespace haarmony::video::testing

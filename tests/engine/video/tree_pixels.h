@@ -7,6 +7,7 @@
 #include "engine/video/create_frame.h"
 #include "engine/video/image_tree.h"
 #include "engine/video/picture.h"
+#include "tests/engine/video/plain_clip.h"
 
 namespace haarmony::video::testing {
 
@@ -33,5 +34,13 @@ namespace haarmony::video::testing {
 // The same painted on a picture.
 [[nodiscard]] Picture painted(const std::vector<LeafSquare>& leaves,
                               const FrameFormat& format);
+
+// Frames of such squares, another for each: flat places, of other depths in every frame.
+[[nodiscard]] RawClip blocks(int width, int height, int frames, std::uint32_t seed);
+[[nodiscard]] RawClip opaque(RawClip clip);
+
+[[nodiscard]] ImageTree tree_of(const Picture& picture);
+// Of all frames of a clip.
+[[nodiscard]] ExactFrame mean_of(const RawClip& clip);
 
 }  // namespace haarmony::video::testing
