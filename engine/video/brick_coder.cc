@@ -46,12 +46,13 @@ class CostSum {
   public:
     static constexpr bool kGreenOnly = kOfGreenOnly;
     CostSum(const Original& original, const SymbolCosts& costs, std::uint32_t limit)
-        : original_(original), costs_(costs), limit_(limit) {}
+        : original_(&original), costs_(&costs), limit_(limit) {}
     template <int kPlane>
-    int code(int context, int predicted, int pixel) {
-        const int value = original_.values[kPlane][pixel];
-        cost_ += costs_[context][residual_symbol(value - predicted)];
-        return value;
+    Coded code(int context, int predicted, int pixel) {
+        const int value = original_->values[kPlane][pixel];
+        const int residual = static_cast<std::int8_t>(value - predicted);
+        cost_ += (*costs_)[context][residual_symbol(residual)];
+        return {value, residual};
     }
     template <int kPlane>
     void clear(int) {}
@@ -59,8 +60,8 @@ class CostSum {
     [[nodiscard]] std::uint32_t cost() const { return cost_; }
 
   private:
-    const Original& original_;
-    const SymbolCosts& costs_;
+    const Original* original_;
+    const SymbolCosts* costs_;
     std::uint32_t limit_;
     std::uint32_t cost_ = 0;
 };
@@ -69,16 +70,17 @@ class Put {
   public:
     static constexpr bool kGreenOnly = false;
     Put(const Original& original, SymbolWriter& symbols)
-        : original_(original), symbols_(symbols) {}
+        : original_(&original), symbols_(&symbols) {}
     template <int kPlane>
-    int code(int context, int predicted, int pixel) {
-        const int value = original_.values[kPlane][pixel];
-        symbols_.put(kPlane, context, residual_symbol(value - predicted));
-        return value;
+    Coded code(int context, int predicted, int pixel) {
+        const int value = original_->values[kPlane][pixel];
+        const int residual = static_cast<std::int8_t>(value - predicted);
+        symbols_->put(kPlane, context, residual_symbol(residual));
+        return {value, residual};
     }
     int alpha(int context, int predicted, int pixel) {
-        const int value = original_.alpha[pixel];
-        symbols_.put(0, context, residual_symbol(value - predicted));
+        const int value = original_->alpha[pixel];
+        symbols_->put(0, context, residual_symbol(value - predicted));
         return value;
     }
     template <int kPlane>
@@ -86,40 +88,39 @@ class Put {
     [[nodiscard]] bool enough() const { return false; }
 
   private:
-    const Original& original_;
-    SymbolWriter& symbols_;
+    const Original* original_;
+    SymbolWriter* symbols_;
 };
 
-// Works on a copy of the cursor, which done() puts back.
+// Reads with a copy of the cursor; the caller takes it back.
 class Take {
   public:
     static constexpr bool kGreenOnly = false;
-    Take(SymbolCursor& symbols, Original& decoded)
-        : symbols_(symbols), original_symbols_(symbols), decoded_(decoded) {}
-    void done() { original_symbols_ = symbols_; }
+    Take(const SymbolCursor& symbols, Original& decoded)
+        : symbols_(symbols), decoded_(&decoded) {}
     template <int kPlane>
-    int code(int context, int predicted, int pixel) {
+    Coded code(int context, int predicted, int pixel) {
         const int residual = residual_of(symbols_.next<kPlane>(context));
         const int value = (predicted + residual) & 255;
-        decoded_.values[kPlane][pixel] = static_cast<std::int16_t>(value);
-        return value;
+        decoded_->values[kPlane][pixel] = static_cast<std::int16_t>(value);
+        return {value, residual};
     }
     int alpha(int context, int predicted, int pixel) {
         const int residual = residual_of(symbols_.next<0>(context));
         const int value = (predicted + residual) & 255;
-        decoded_.alpha[pixel] = static_cast<std::uint8_t>(value);
+        decoded_->alpha[pixel] = static_cast<std::uint8_t>(value);
         return value;
     }
     template <int kPlane>
     void clear(int pixel) {
-        decoded_.values[kPlane][pixel] = 0;
+        decoded_->values[kPlane][pixel] = 0;
     }
     [[nodiscard]] bool enough() const { return false; }
+    [[nodiscard]] const SymbolCursor& cursor() const { return symbols_; }
 
   private:
     SymbolCursor symbols_;
-    SymbolCursor& original_symbols_;
-    Original& decoded_;
+    Original* decoded_;
 };
 
 // What a brick is when nothing is added to the prediction.
@@ -279,7 +280,7 @@ Result<void> BrickDecoder::next(Brick& brick, const BrickNeighbors& neighbors) {
                     static_cast<AlphaMode>(alpha) == AlphaMode::kOpaque,
                     decoded.alpha);
     }
-    take.done();
+    symbols_ = take.cursor();
     for (int pixel = 0; pixel < kBrickPixels; ++pixel) {
         brick[pixel] = {static_cast<std::uint8_t>(decoded.values[1][pixel]),
                         static_cast<std::uint8_t>(decoded.values[0][pixel]),

@@ -42,7 +42,7 @@ inline constexpr int kModeSymbols = kReferences * 4 * 2;
     return static_cast<std::uint8_t>(wrapped >= 0 ? 2 * wrapped : -2 * wrapped - 1);
 }
 [[nodiscard]] constexpr int residual_of(std::uint8_t symbol) {
-    return (symbol & 1) != 0 ? -((symbol + 1) >> 1) : symbol >> 1;
+    return symbol >> 1 ^ -(symbol & 1);
 }
 
 [[nodiscard]] constexpr int clamped(int value) {
@@ -97,8 +97,14 @@ struct PlaneWindow {
     std::array<std::int16_t, (kBrickSide + 1) * kStride> magnitude{};  // of residuals
 };
 
+// A pixel's value in one plane, and its residual as -128 .. 127.
+struct Coded {
+    int value;
+    int residual;
+};
+
 // Runs through the pixels of a brick. `io.template code<plane>(context, predicted, pixel)`
-// returns the pixel's value, having coded its difference to what is predicted;
+// returns the pixel's value and residual;
 // `io.template clear<plane>(pixel)` is told of a pixel that has none.
 template <Predictor kPredictor, bool kSpatial, bool kMirror, bool kOpaque, typename Io>
 class PixelRun {
@@ -114,8 +120,11 @@ class PixelRun {
 
     void run() {
         if constexpr (kSpatial) borders();
-        row<true>(0);
-        for (int y = 1; y < kBrickSide && !io_.enough(); ++y) row<false>(y);
+        // A copy, which stays in registers.
+        Io io = io_;
+        row<true>(io, 0);
+        for (int y = 1; y < kBrickSide && !io.enough(); ++y) row<false>(io, y);
+        io_ = io;
     }
 
   private:
@@ -133,36 +142,79 @@ class PixelRun {
         }
     }
 
+    // What the pixel before left behind, in registers.
+    struct Before {
+        int off = 0;
+        int magnitude = 0;
+    };
+    using Row = std::array<std::int16_t, kBrickSide>;
+
     template <bool kFirstRow>
-    void row(int y) {
+    [[gnu::always_inline]] void row(Io& io, int y) {
+        // All that the row's own pixels do not change, eight at once.
+        std::array<Row, kPlanes> louder{};
+        std::array<Row, kPlanes> plain{};
+        std::array<Before, kPlanes> before;
+        for (int plane = 0; plane < kPlanes; ++plane) {
+            const int begin = y * kStride + 1;
+            const std::int16_t* above = windows_[plane].magnitude.data() + begin;
+            for (int x = 0; x < kBrickSide && !kFirstRow; ++x) {
+                louder[plane][x] =
+                    static_cast<std::int16_t>(2 * above[x] + above[x - 1] + above[x + 1]);
+            }
+            if constexpr (kPredictor == Predictor::kPlain) {
+                const std::int16_t* base =
+                    prediction_.base[plane].data() + y * kBrickSide;
+                const std::int16_t* coarse =
+                    prediction_.coarse[plane].data() + (y >> 1) * 4;
+                for (int x = 0; x < kBrickSide; ++x)
+                    plain[plane][x] =
+                        static_cast<std::int16_t>(clamped(base[x] + coarse[x >> 1]));
+            }
+            before[plane].off = windows_[plane].off[begin + kStride - 1];
+        }
         for (int x = 0; x < kBrickSide; ++x) {
             int green_error = 0;
-            pixel<0, kFirstRow>(x, y, green_error);
+            pixel<0, kFirstRow>(io, x, y, louder, plain, before[0], green_error);
             if constexpr (!Io::kGreenOnly) {
-                pixel<1, kFirstRow>(x, y, green_error);
-                pixel<2, kFirstRow>(x, y, green_error);
+                pixel<1, kFirstRow>(io, x, y, louder, plain, before[1], green_error);
+                pixel<2, kFirstRow>(io, x, y, louder, plain, before[2], green_error);
             }
         }
     }
 
     template <int kPlane, bool kFirstRow>
-    [[gnu::always_inline]] void pixel(int x, int y, int& green_error) {
+    [[gnu::always_inline]] void pixel(Io& io,
+                                      int x,
+                                      int y,
+                                      const std::array<Row, kPlanes>& louder,
+                                      const std::array<Row, kPlanes>& plain,
+                                      Before& before,
+                                      int& green_error) {
+        constexpr bool kAround = kPredictor != Predictor::kPlain;
         PlaneWindow& window = windows_[kPlane];
         const int pixel = y * kBrickSide + x;
         const int at = (y + 1) * kStride + x + 1;
-        const int base = prediction_.base[kPlane][pixel];
         if constexpr (!kOpaque) {
             if (alpha_[pixel] == 0) {
-                window.off[at] = static_cast<std::int16_t>(-base);
-                io_.template clear<kPlane>(pixel);
+                before = {-prediction_.base[kPlane][pixel], 0};
+                window.off[at] = static_cast<std::int16_t>(before.off);
+                io.template clear<kPlane>(pixel);
                 return;
             }
         }
-        const int coarse = prediction_.coarse[kPlane][(y >> 1) * 4 + (x >> 1)];
-        int left = window.off[at - 1];
-        int above = window.off[at - kStride];
-        int corner = window.off[at - kStride - 1];
-        if constexpr (kPredictor != Predictor::kPlain) {
+        int activity = 2 * before.magnitude + louder[kPlane][x];
+        if (x == 0) activity = activity * 3 / 2;
+        if (kFirstRow) activity *= 2;
+        Residual kind = Residual::kPlain;
+        if constexpr (kMirror)
+            kind = mirror_kind(prediction_.first_off_parent[kPlane][pixel]);
+        int predicted = 0;
+        if constexpr (kAround) {
+            const int coarse = prediction_.coarse[kPlane][(y >> 1) * 4 + (x >> 1)];
+            int left = before.off;
+            int above = window.off[at - kStride];
+            int corner = window.off[at - kStride - 1];
             const bool no_left = x == 0 && !(kSpatial && prediction_.has_left);
             const bool no_above = kFirstRow && !(kSpatial && prediction_.has_above);
             if (no_left && no_above) {
@@ -174,44 +226,39 @@ class PixelRun {
             } else if (no_above) {
                 above = corner = left;
             }
-        }
-        int off = coarse;
-        Residual kind = Residual::kPlain;
-        if constexpr (kPredictor == Predictor::kMedian) {
-            off = median(left, above, corner);
-        } else if constexpr (kPredictor == Predictor::kQuad) {
-            if ((x & y & 1) != 0) {
-                kind = Residual::kCorner;
-                off = 4 * coarse - left - above - corner;
-            } else {
-                const int opposite = (x & 1) != 0   ? 2 * coarse - left
-                                     : (y & 1) != 0 ? 2 * coarse - above
-                                                    : coarse;
-                off = third(median(left, above, corner) + coarse + opposite);
+            int off = median(left, above, corner);
+            if constexpr (kPredictor == Predictor::kQuad) {
+                if ((x & y & 1) != 0) {
+                    kind = Residual::kCorner;
+                    off = 4 * coarse - left - above - corner;
+                } else {
+                    const int opposite = (x & 1) != 0   ? 2 * coarse - left
+                                         : (y & 1) != 0 ? 2 * coarse - above
+                                                        : coarse;
+                    off = third(off + coarse + opposite);
+                }
             }
-        }
-        const std::int16_t* magnitude = window.magnitude.data() + at;
-        int activity = 2 * (magnitude[-1] + magnitude[-kStride]) +
-                       magnitude[-kStride + 1] + magnitude[-kStride - 1];
-        if (x == 0) activity = activity * 3 / 2;
-        if (kFirstRow) activity *= 2;
-        if constexpr (kSpatial && kPredictor != Predictor::kPlain) {
-            activity =
-                std::max(activity, std::abs(left - corner) + std::abs(above - corner));
+            predicted = clamped(prediction_.base[kPlane][pixel] + off);
+            if constexpr (kSpatial) {
+                activity = std::max(activity,
+                                    std::abs(left - corner) + std::abs(above - corner));
+            }
+        } else {
+            predicted = plain[kPlane][x];
         }
         const int level = kFirstRow && x == 0 ? kActivities - 1
                                               : kActivityOf[std::min(activity, kLoudest)];
-        if constexpr (kMirror)
-            kind = mirror_kind(prediction_.first_off_parent[kPlane][pixel]);
-        const int predicted = clamped(base + off);
         const int with_green =
             kPlane == 0 ? predicted : clamped(predicted + (green_error & follow_));
-        const int value = io_.template code<kPlane>(
+        const Coded coded = io.template code<kPlane>(
             color_context(kind, kPlane == 0 ? 0 : 1) + level, with_green, pixel);
-        if constexpr (kPlane == 0) green_error = value - predicted;
-        window.off[at] = static_cast<std::int16_t>(value - base);
-        window.magnitude[at] = static_cast<std::int16_t>(
-            std::abs(static_cast<std::int8_t>(value - with_green)));
+        if constexpr (kPlane == 0) green_error = coded.value - predicted;
+        before.magnitude = std::abs(coded.residual);
+        window.magnitude[at] = static_cast<std::int16_t>(before.magnitude);
+        if constexpr (kAround) {
+            before.off = coded.value - prediction_.base[kPlane][pixel];
+            window.off[at] = static_cast<std::int16_t>(before.off);
+        }
     }
 
     static Residual mirror_kind(int difference) {

@@ -74,9 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t siz
     const bool changes = input[0] % 4 != 0;
     const bool in_chunks = input[0] % 4 != 1;
     if (!changes) {
-        std::vector<std::byte> file(size - 1);
-        std::memcpy(file.data(), input + 1, file.size());
-        read_all(file);
+        read_all(std::as_bytes(std::span(input + 1, size - 1)));
         return 0;
     }
     static const MrvIndex index = (*decode_front(whole())).index;
