@@ -49,6 +49,10 @@ const std::vector<Reserved>& reserved() {
         {"OpenImageIO/", {"ingest"}},
         {"jpeglib.h", {"ingest"}},
         {"curl/", {"ingest"}},
+        {"libavcodec/", {"ingest"}},
+        {"libavformat/", {"ingest"}},
+        {"libavutil/", {"ingest"}},
+        {"libswscale/", {"ingest"}},
         {"CLI/", {"ingest", "server"}},
         // The engine starts no threads, opens no files and prints nothing.
         {"thread", {"schema", "ingest", "server"}},
