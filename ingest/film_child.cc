@@ -4,7 +4,6 @@
 #include <sys/time.h>
 
 #include <cassert>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,18 +88,16 @@ Result<void> FilmChild::open() {
         options_.program.empty() ? find_program(kProgramName) : options_.program;
     auto started = child_.start(program, "encodes films", options_.child_bytes);
     if (!started) return started;
-    const auto seconds = std::chrono::ceil<std::chrono::seconds>(options_.patience);
-    const timeval patience = {seconds.count(), 0};
-    if (::setsockopt(
-            child_.socket(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience)) != 0) {
-        return bury("cannot be given a deadline");
-    }
+    const auto ms = options_.patience.count();
+    const timeval patience = {ms / 1000, ms % 1000 * 1000};
+    ::setsockopt(child_.socket(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
     VideoRequest request;
     request.task = options_.container == Container::kMp4 ? VideoTask::kWriteMp4
                                                          : VideoTask::kWriteWebm;
     request.format = options_.format;
     request.background = options_.background;
-    // Here and below: one that is gone is found so by the answer that does not come.
+    // Here and below: one that is gone or takes nothing any more is found so by the answer
+    // that does not come.
     static_cast<void>(send_with_file(child_.socket(), &request, sizeof(request), -1));
     return collect();
 }

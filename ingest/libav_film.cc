@@ -9,6 +9,7 @@ extern "C" {
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstring>
 #include <new>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@ namespace haarmony::ingest {
 namespace {
 
 constexpr int kBufferBytes = 64 << 10;
+constexpr int kReadBeyond = 64;  // bytes that swscale reads beyond the end of a row
 constexpr int kSecondsBetweenKeys = 2;
 constexpr std::int64_t kMaxFramesBetweenKeys = 600;
 
@@ -180,30 +182,39 @@ Result<void> LibavFilm::encode(const AVFrame* frame) {
     return failed(code);
 }
 
+int LibavFilm::pad(const video::Picture& picture) {
+    const int stride =
+        (4 * encoder_->width + kReadBeyond - 1) / kReadBeyond * kReadBeyond;
+    rows_.resize(static_cast<std::size_t>(stride) *
+                     static_cast<std::size_t>(encoder_->height) +
+                 kReadBeyond);
+    const std::size_t row_bytes =
+        std::size_t{4} * static_cast<std::size_t>(picture.width);
+    for (int y = 0; y < encoder_->height; ++y) {
+        const int from = std::min(y, picture.height - 1);
+        std::uint8_t* row =
+            rows_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(stride);
+        std::memcpy(row, &picture.at(0, from), row_bytes);
+        if (encoder_->width != picture.width) {
+            std::memcpy(row + row_bytes, &picture.at(picture.width - 1, from), 4);
+        }
+    }
+    return stride;
+}
+
 Result<void> LibavFilm::add(video::Picture& picture) {
     if (webm()) {
         bleed_into_clear(picture);
     } else {
         lay_over(picture, request_.background);
     }
-    const video::Rgba* pixels = picture.pixels.data();
-    if (encoder_->width != picture.width || encoder_->height != picture.height) {
-        padded_.clear();
-        for (int y = 0; y < encoder_->height; ++y) {
-            const int row = std::min(y, picture.height - 1);
-            const auto begin =
-                picture.pixels.begin() + std::ptrdiff_t{row} * picture.width;
-            padded_.insert(padded_.end(), begin, begin + picture.width);
-            if (encoder_->width != picture.width) padded_.push_back(padded_.back());
-        }
-        pixels = padded_.data();
-    }
+    const int stride = pad(picture);
     if (const int code = av_frame_make_writable(frame_.get()); code < 0) {
         return failed(code);
     }
     const std::array<const std::uint8_t*, 4> planes = {
-        reinterpret_cast<const std::uint8_t*>(pixels), nullptr, nullptr, nullptr};
-    const std::array<int, 4> strides = {4 * encoder_->width, 0, 0, 0};
+        rows_.data(), nullptr, nullptr, nullptr};
+    const std::array<int, 4> strides = {stride, 0, 0, 0};
     const int rows = sws_scale(scaler_.get(),
                                planes.data(),
                                strides.data(),

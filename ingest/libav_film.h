@@ -50,6 +50,8 @@ class LibavFilm {
     [[nodiscard]] Result<void> open_container();
     [[nodiscard]] Result<void> open_encoder();
     [[nodiscard]] Result<void> open_scaler();
+    // The picture into rows_; the distance of two rows.
+    int pad(const video::Picture& picture);
     [[nodiscard]] Result<void> encode(const AVFrame* frame);
 
     VideoRequest request_;
@@ -61,7 +63,7 @@ class LibavFilm {
     Libav<SwsContext> scaler_;
     Libav<AVFrame> frame_;
     Libav<AVPacket> packet_;
-    std::vector<video::Rgba> padded_;  // to even sides
+    std::vector<std::uint8_t> rows_;  // the picture with even sides, where need be
     std::int64_t frames_ = 0;
 };
 

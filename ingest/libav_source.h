@@ -8,7 +8,8 @@
 // Shape   as video_source.h. VP8 and VP9 with alpha are read by libvpx, since libav's own
 //         decoders leave alpha out. A PNG with animation chunks is read as APNG.
 // Errors  kUnsupportedFormat (no video in it, a codec not on the list), kUndecodable (what
-//         libav cannot read, conceals or is cut off; a size that changes), kTooLarge.
+//         libav cannot read or says that it conceals; a cut animation; a size that
+//         changes), kTooLarge. Of a film that is cut between two packets, what there is.
 // Threads one caller a source.
 #pragma once
 

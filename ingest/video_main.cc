@@ -118,7 +118,10 @@ int write_film(const VideoRequest& request) {
     haarmony::video::Picture picture(request.format.width, request.format.height);
     for (;;) {
         FilmMessage message;
-        if (!receive_all(kSocket, &message, sizeof(message))) return kPeerGone;
+        if (!receive_all(kSocket, &message, sizeof(message)) ||
+            message.magic != kVideoMagic) {
+            return kPeerGone;
+        }
         if (message.step == FilmStep::kFinish) {
             if (auto finished = film.finish(); !finished) return fail(finished.error());
             return done() ? kDone : kPeerGone;

@@ -121,6 +121,25 @@ TEST(VideoChild, AHangIsEndedByTheClock) {
     EXPECT_TRUE(no_child_is_left());
 }
 
+TEST(VideoChild, OneThatTakesNoPicturesIsEndedByTheClock) {
+    const ScratchFolder folder;
+    VideoReply done;
+    done.kind = VideoReplyKind::kDone;
+    VideoSinkOptions options;
+    options.program = lying_program(folder, as_bytes(done), "exec sleep 1000");
+    options.patience = milliseconds(300);
+    options.format = {512, 512, {10, 1}};  // more than a socket holds
+    options.frames = 1;
+    const auto sink = open_video_sink(
+        options, [](std::span<const std::uint8_t>) { return Result<void>(); });
+    ASSERT_TRUE(sink) << sink.error().message;
+    const auto added = (*sink)->add(video::Picture(512, 512).view());
+    ASSERT_FALSE(added);
+    EXPECT_EQ(added.error().code, ErrorCode::kUnavailable);
+    EXPECT_THAT(added.error().message, HasSubstr("300 ms"));
+    EXPECT_TRUE(no_child_is_left());
+}
+
 TEST(VideoChild, GarbageIsNotBelieved) {
     const ScratchFolder folder;
     const std::string program = fake_program(folder, "exec cat /dev/zero >&0");
@@ -191,7 +210,7 @@ TEST(VideoChild, OneThatIsKilledWhileItReadsIsNamed) {
 
 TEST(VideoChild, GoesWhenNobodyReadsOn) {
     const Bytes film =
-        write_film(moving_clip({256, 256, {10, 1}}, 6, Alpha::kRandom), Container::kApng);
+        write_film(moving_clip({160, 160, {10, 1}}, 5, Alpha::kOpaque), Container::kApng);
     {
         const auto source = open_video(film, {});
         ASSERT_TRUE(source) << source.error().message;

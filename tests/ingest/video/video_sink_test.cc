@@ -94,7 +94,7 @@ TEST(VideoSink, WhatAContainerCannotHoldIsRefusedAtOnce) {
 
 // The output fails at its n-th part, for all n that there are.
 TEST(VideoSink, EndsWithTheErrorOfItsOutput) {
-    const Clip clip = moving_clip(kSmall, 3, Alpha::kOpaque);
+    const Clip clip = moving_clip(kSmall, 2, Alpha::kOpaque);
     for (const ContainerDescription& entry : containers()) {
         bool whole = false;
         for (int good = 0; !whole; ++good) {
@@ -102,7 +102,7 @@ TEST(VideoSink, EndsWithTheErrorOfItsOutput) {
             int parts = 0;
             const auto film = [&]() -> Result<void> {
                 auto sink = open_video_sink(
-                    options_for(entry.container, 3),
+                    options_for(entry.container, 2),
                     [&](std::span<const std::uint8_t> part) {
                         EXPECT_FALSE(part.empty());
                         if (parts++ < good) return Result<void>();
