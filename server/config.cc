@@ -58,10 +58,16 @@ void declare(CLI::App& app, Flags& flags) {
                  config.allow_url_fetch,
                  "Fetch pictures from addresses that clients name")
         ->envname("HAARMONY_ALLOW_URL_FETCH");
-    app.add_option("--max-body", config.max_body, "Bytes of a request's body")
+    app.add_option_function<std::uint64_t>(
+           "--max-body",
+           [&config](std::uint64_t bytes) {
+               config.max_body = bytes;
+               config.max_video_body = bytes;
+           },
+           "Bytes of a request's body")
         ->envname("HAARMONY_MAX_BODY")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
-        ->capture_default_str();
+        ->default_str("67108864, of a video 1073741824");
     app.add_option("--index-m", config.index_m, "Coefficients per channel in the index")
         ->envname("HAARMONY_INDEX_M")
         ->check(CLI::Range(1, image::kMaxCoefficients))

@@ -23,7 +23,8 @@ struct Config {
     std::vector<std::string> media_roots;
     std::optional<std::string> api_key_file;
     bool allow_url_fetch = false;
-    std::uint64_t max_body = std::uint64_t{64} << 20;
+    std::uint64_t max_body = std::uint64_t{64} << 20;       // pictures and JSON
+    std::uint64_t max_video_body = std::uint64_t{1} << 30;  // --max-body sets both
     int index_m = 60;
     std::string log_level = "info";
     bool healthcheck = false;  // ask the daemon that runs with this configuration

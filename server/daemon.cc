@@ -18,10 +18,12 @@
 #include "server/app/cluster_overview.h"
 #include "server/app/curve_service.h"
 #include "server/app/duplicate_groups.h"
+#include "server/app/frame_search.h"
 #include "server/app/image_service.h"
 #include "server/app/job_runner.h"
 #include "server/app/job_types.h"
 #include "server/app/media_roots.h"
+#include "server/app/video_service.h"
 #include "server/http/listener.h"
 #include "server/http/probe.h"
 #include "server/log.h"
@@ -128,6 +130,11 @@ int run_daemon(const Config& config) {
     auto images = ImageService::open(service);
     if (!images) return leave(kExitCouldNotRun, images.error());
 
+    VideoServiceOptions showing;
+    showing.database_path = config.database;
+    auto videos = VideoService::open(showing);
+    if (!videos) return leave(kExitCouldNotRun, videos.error());
+
     IngestJobOptions ingest;
     ingest.database_path = config.database;
     ingest.media_roots = media_roots.value();
@@ -137,6 +144,7 @@ int run_daemon(const Config& config) {
     auto jobs = JobRunner::start(running,
                                  job_types(images.value()->index(),
                                            images.value()->snapshots(),
+                                           *videos.value(),
                                            ingest,
                                            service.decode));
     if (!jobs) return leave(kExitCouldNotRun, jobs.error());
@@ -147,14 +155,19 @@ int run_daemon(const Config& config) {
     ClusterOverview clusters(
         config.database, images.value()->index(), config.threads - 1);
 
+    FrameSearch frames(config.database, config.index_m);
+
     const Context context{*images.value(),
                           *jobs.value(),
                           *duplicates.value(),
                           clusters,
                           *curves.value(),
+                          *videos.value(),
+                          frames,
                           std::move(media_roots).value(),
                           config.allow_url_fetch,
-                          config.max_body};
+                          config.max_body,
+                          config.max_video_body};
     http::Router router;
     add_routes(context, router);
     http::RouteOptions page_route;

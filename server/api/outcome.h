@@ -1,6 +1,6 @@
 // What a step of a handler gives: a value, or the problem that the client is told.
 //
-// As Result, with a Problem for its error: the codes that clients read ("not_built",
+// As Result, with a Problem for its error: the codes that clients read ("no_source",
 // "several_sources") are finer than ErrorCode. An Error becomes its Problem by itself.
 //
 // Errors  problem() on a value and value access on a problem are a caller's bug and assert.

@@ -18,6 +18,7 @@
 #include "server/api/query_options.h"
 #include "server/api/query_source.h"
 #include "server/api/url_source.h"
+#include "server/api/video_match.h"
 #include "server/http/json.h"
 
 namespace haarmony::server {
@@ -70,15 +71,72 @@ Result<std::string> explanation_of(const Context& context,
     return http::to_text(explanation.value());
 }
 
-// The list of matches as JSON, best first.
+// What was asked for is there: images, frames, or both.
+struct Found {
+    std::optional<SearchAnswer> images;
+    std::optional<FrameMatches> frames;
+};
+
+Result<Found> search(const Context& context,
+                     const QueryPicture& picture,
+                     const QueryOptions& options) {
+    Found found;
+    if (options.kind != QueryKind::kFrame) {
+        auto images = context.images.search(picture, options.search);
+        if (!images) return images.error();
+        found.images = *std::move(images);
+    }
+    if (options.kind != QueryKind::kImage) {
+        auto frames =
+            context.frames.search(picture, options.search.plan, options.search.limit);
+        if (!frames) return frames.error();
+        found.frames = *std::move(frames);
+    }
+    return found;
+}
+
+const SearchPlan& plan_of(const Found& found) {
+    return found.images ? found.images->plan : found.frames->plan;
+}
+
+std::int64_t searched(const Found& found) {
+    return (found.images ? found.images->found.searched : 0) +
+           (found.frames ? found.frames->searched : 0);
+}
+
+std::chrono::nanoseconds ranking(const Found& found) {
+    return (found.images ? found.images->found.ranking : std::chrono::nanoseconds{}) +
+           (found.frames ? found.frames->ranking : std::chrono::nanoseconds{});
+}
+
+// The list of matches as JSON, best first; an image before a frame as near.
 Result<std::string> matches_text(const Context& context,
-                                 const SearchAnswer& answer,
+                                 const Found& answer,
                                  const QueryOptions& options) {
+    static const std::vector<FoundImage> no_images;
+    static const std::vector<FoundFrame> no_frames;
+    const auto& images = answer.images ? answer.images->found.images : no_images;
+    const auto& frames = answer.frames ? answer.frames->frames : no_frames;
     const image::Profile& profile = options.search.plan.profiles.front();
     std::string matches = "[";
     int rank = 0;
-    for (const FoundImage& found : answer.found.images) {
-        const PlannedWay& way = answer.plan.ways()[found.match.way];
+    std::size_t next_image = 0;
+    std::size_t next_frame = 0;
+    while (rank < options.search.limit &&
+           (next_image < images.size() || next_frame < frames.size())) {
+        const bool is_image =
+            next_image < images.size() &&
+            (next_frame == frames.size() ||
+             images[next_image].match.distance <= frames[next_frame].match.distance);
+        if (!is_image) {
+            if (rank > 0) matches += ',';
+            const FoundFrame& frame = frames[next_frame++];
+            append_frame_match(
+                frame, answer.frames->plan.ways()[frame.match.way], ++rank, matches);
+            continue;
+        }
+        const FoundImage& found = images[next_image++];
+        const PlannedWay& way = answer.images->plan.ways()[found.match.way];
         Result<std::string> explanation = std::string();
         if (options.explain)
             explanation = explanation_of(context, found.image.id, way, profile);
@@ -89,12 +147,12 @@ Result<std::string> matches_text(const Context& context,
     return matches + ']';
 }
 
-json query_json(const SearchAnswer& answer, const QueryOptions& options) {
+json query_json(const SearchPlan& plan, const QueryOptions& options) {
     // The first way asks for the picture as it is.
-    const image::Signature& signature = answer.plan.ways().front().signature;
+    const image::Signature& signature = plan.ways().front().signature;
     const std::vector<image::Profile>& profiles = options.search.plan.profiles;
     json query{{"profile", profiles.front().name},
-               {"m", answer.plan.m()},
+               {"m", plan.m()},
                {"signature", image::signature_to_text(signature)},
                {"low_information", signature.low_information}};
     if (!options.search.plan.combine) return query;
@@ -123,21 +181,21 @@ Outcome<Answer> answer(const Context& context,
         return Error{ErrorCode::kUnavailable, "the collection is still being loaded"};
     auto picture = picture_of(context, *source, options.look);
     if (!picture) return picture.problem();
-    const auto found = context.images.search(*picture, options.search);
+    const auto found = search(context, *picture, options);
     if (!found) return found.error();
 
-    const auto matches = matches_text(context, found.value(), options);
+    const auto matches = matches_text(context, *found, options);
     if (!matches) return matches.error();
     const std::chrono::duration<double, std::milli> took = Clock::now() - start;
     std::string reply;
     JsonObject members(reply);
     members.json("matches", matches.value())
-        .integer("searched", found->found.searched)
+        .integer("searched", searched(*found))
         .number("took_ms", took.count())
-        .json("query", http::to_text(query_json(found.value(), options)));
+        .json("query", http::to_text(query_json(plan_of(*found), options)));
     if (options.seq) members.json("seq", http::to_text(*options.seq));
     members.end();
-    return Answer{std::move(reply), found->found.ranking};
+    return Answer{std::move(reply), ranking(*found)};
 }
 
 http::Response fresh(std::string reply) {

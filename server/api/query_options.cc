@@ -23,12 +23,20 @@ constexpr std::array<std::string_view, 3> kOrientations{"none", "mirror", "all"}
 constexpr std::array<std::string_view, 2> kCombineBy{"mean", "worst"};
 constexpr std::array<std::string_view, 3> kKinds{"image", "frame", "all"};
 
-// Frames are pictures of videos.
-void only_images(Inputs& inputs) {
-    const std::optional<std::string> kind = inputs.one_of("kind", kKinds);
-    if (kind && *kind != kKinds.front())
-        inputs.refuse(http::Problem{
-            400, "not_built", "kind=" + *kind + " is not built yet", "kind", {}});
+QueryKind read_kind(Inputs& inputs) {
+    const std::string word = inputs.one_of("kind", kKinds).value_or("image");
+    if (word == "frame") return QueryKind::kFrame;
+    return word == "all" ? QueryKind::kAll : QueryKind::kImage;
+}
+
+// Frames have no metadata and no borders, and ranks of two collections have no order.
+void refuse_for_frames(Inputs& inputs, const QueryOptions& options) {
+    if (options.kind == QueryKind::kImage) return;
+    for (const std::string_view name : {"text", "tags"})
+        if (inputs.has(name)) inputs.refuse(name, "does not apply to frames");
+    if (options.explain) inputs.refuse("explain", "is not there for frames");
+    if (options.kind == QueryKind::kAll && options.search.plan.combine)
+        inputs.refuse("combine", "ranks images or frames, not both together");
 }
 
 std::optional<image::Profile> find_profile(const Context& context,
@@ -149,7 +157,8 @@ QueryOptions read_query_options(const Context& context, Inputs& inputs) {
     options.search.filter = read_filter(inputs);
     options.explain = inputs.boolean("explain").value_or(false);
     options.seq = read_seq(inputs);
-    only_images(inputs);
+    options.kind = read_kind(inputs);
+    refuse_for_frames(inputs, options);
     return options;
 }
 

@@ -1,7 +1,4 @@
 // How to search: the options that every kind of query takes.
-//
-// What is described but not built yet is refused with the code "not_built", so that no
-// client takes an option for obeyed.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +11,11 @@
 
 namespace haarmony::server {
 
+// Frames are pictures of videos; of each shot the best is told.
+enum class QueryKind { kImage, kFrame, kAll };
+
 struct QueryOptions {
+    QueryKind kind = QueryKind::kImage;
     SearchOptions search;
     LookOptions look;  // in the kinds of all profiles
     bool explain = false;

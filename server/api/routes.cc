@@ -18,6 +18,15 @@
 #include "server/api/status.h"
 #include "server/api/surfaces.h"
 #include "server/api/training.h"
+#include "server/api/video_compose.h"
+#include "server/api/video_export.h"
+#include "server/api/video_frame.h"
+#include "server/api/video_panorama.h"
+#include "server/api/video_play.h"
+#include "server/api/video_thumbnails.h"
+#include "server/api/video_timeline.h"
+#include "server/api/video_upload.h"
+#include "server/api/videos.h"
 
 namespace haarmony::server {
 namespace {
@@ -197,12 +206,66 @@ constexpr std::array kRoutes{
           false,
           post_surface_edit,
           cost_of_curve},
+    Route{"GET", "/videos", Cost::kCheap, Body::kNone, false, list_videos},
+    Route{"POST", "/videos", Cost::kCostly, Body::kVideo, false, post_video},
+    Route{"GET", "/videos/{id}", Cost::kCheap, Body::kNone, false, get_video},
+    Route{"DELETE", "/videos/{id}", Cost::kCostly, Body::kNone, false, delete_video},
+    Route{"POST",
+          "/videos/compose",
+          Cost::kCostly,
+          Body::kPicture,
+          false,
+          post_composition},
+    Route{"GET", "/videos/{id}/export", Cost::kCostly, Body::kNone, false, get_export},
+    Route{"GET",
+          "/videos/{id}/thumbnails.vtt",
+          Cost::kCheap,
+          Body::kNone,
+          false,
+          get_thumbnail_track},
+    Route{"GET",
+          "/videos/{id}/thumbnails.jpg",
+          Cost::kCostly,
+          Body::kNone,
+          false,
+          get_thumbnail_sprite},
+    Route{"GET", "/video/timeline", Cost::kCostly, Body::kNone, false, get_timeline},
+    Route{"GET", "/video/panorama", Cost::kCostly, Body::kNone, false, get_panorama},
+    Route{"GET", "/video/play", Cost::kCheap, Body::kNone, false, get_play},
+    Route{"GET",
+          "/video/frame",
+          Cost::kCostly,
+          Body::kNone,
+          false,
+          get_frame,
+          nullptr,
+          cost_of_frame},
+    Route{"POST",
+          "/video/frame",
+          Cost::kCostly,
+          Body::kPicture,
+          false,
+          post_frame,
+          nullptr,
+          cost_of_frame},
     Route{"GET", "/healthz", Cost::kInstant, Body::kNone, true, get_health},
     Route{"GET", "/readyz", Cost::kInstant, Body::kNone, true, get_readiness},
     Route{"GET", "/status", Cost::kCheap, Body::kNone, false, get_status},
     Route{"GET", "/version", Cost::kCheap, Body::kNone, false, get_version},
     Route{"GET", "/openapi.json", Cost::kCheap, Body::kNone, false, get_openapi},
 };
+
+std::uint64_t body_limit(const Context& context, Body body) {
+    switch (body) {
+        case Body::kNone:
+            return 0;
+        case Body::kPicture:
+            return context.max_body;
+        case Body::kVideo:
+            break;
+    }
+    return context.max_video_body;
+}
 
 }  // namespace
 
@@ -212,9 +275,14 @@ void add_routes(const Context& context, http::Router& router) {
     for (const Route& route : kRoutes) {
         http::RouteOptions options;
         options.cost = route.cost;
-        options.body_limit = route.body == Body::kPicture ? context.max_body : 0;
+        options.body_limit = body_limit(context, route.body);
         options.open = route.open;
         options.cost_of = route.cost_of;
+        if (route.cost_in != nullptr)
+            options.cost_of = [&context,
+                               cost = route.cost_in](const http::Request& request) {
+                return cost(context, request);
+            };
         router.add(route.method,
                    route.pattern,
                    options,

@@ -10,7 +10,8 @@
 
 namespace haarmony::server {
 
-enum class Body { kNone, kPicture };  // kPicture: up to Context::max_body
+// Up to Context::max_body, or max_video_body.
+enum class Body { kNone, kPicture, kVideo };
 
 struct Route {
     std::string_view method;
@@ -20,6 +21,7 @@ struct Route {
     bool open;  // needs no key
     Reply (*handler)(const Context&, const http::Request&);
     http::Cost (*cost_of)(const http::Request&) = nullptr;  // instead of `cost`
+    http::Cost (*cost_in)(const Context&, const http::Request&) = nullptr;  // the same
 };
 
 [[nodiscard]] std::span<const Route> routes();

@@ -38,13 +38,18 @@ Reply get_status(const Context& context, const http::Request& request) {
     if (const auto problem = refuse_parameters(request)) return *problem;
     const auto status = context.images.status();
     if (!status) return status.error();
+    const auto videos = context.videos.count();
+    if (!videos) return videos.error();
+    const auto frames = context.frames.count();
+    if (!frames) return frames.error();
     const image::IndexStats& index = status->index;
     const double bytes_per_image =
         index.images == 0
             ? 0.0
             : static_cast<double>(index.bytes) / static_cast<double>(index.images);
     return fresh({{"images", status->rows.indexed},
-                  {"frames", 0},
+                  {"videos", *videos},
+                  {"frames", *frames},
                   {"failed", status->rows.failed},
                   {"deleted", status->rows.deleted},
                   {"searchable", index.images},

@@ -124,7 +124,9 @@ Result<schema::Job> JobRunner::cancel(std::int64_t id) {
         const std::lock_guard lock(writer_mutex_);
         return writer_->jobs().cancel(id);
     }();
-    if (!job || job->state != JobState::kRunning) return job;
+    if (!job) return job;
+    if (job->state == JobState::kCancelled) tell_ended(*job);
+    if (job->state != JobState::kRunning) return job;
     // run_next() sets running_ before the job is "running" in the table.
     const std::lock_guard lock(mutex_);
     if (running_ && running_->id == id) {
@@ -262,6 +264,7 @@ void JobRunner::finish(JobContext& context, const Result<void>& outcome) {
         const std::string result =
             result_of(context, seconds, job.counts.seen - running.seen_before);
         insist([&] { return worker_->jobs().finish(job.id, state, result, errors); });
+        tell_ended(job);
     }
     spdlog::info("event={} id={} type={} state={} seen={} failed={} seconds={:.3f}",
                  state == JobState::kRunning ? "job_interrupted" : "job_finished",
@@ -271,6 +274,11 @@ void JobRunner::finish(JobContext& context, const Result<void>& outcome) {
                  job.counts.seen,
                  job.counts.failed,
                  seconds);
+}
+
+void JobRunner::tell_ended(const schema::Job& job) const {
+    const auto type = types_.find(job.type);
+    if (type != types_.end() && type->second.ended) type->second.ended(job);
 }
 
 void JobRunner::insist(const std::function<Result<void>()>& write) {

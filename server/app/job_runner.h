@@ -38,6 +38,9 @@ struct JobType {
     // Whether run() goes on at the context's position; else what earlier runs counted is
     // forgotten, and only their position is there.
     bool resumes = false;
+    // Hears of a job that has ended in whatever way, also one that never ran, after its row
+    // says so: the place to throw away what was kept for it. From any thread.
+    std::function<void(const schema::Job&)> ended = {};
 };
 using JobTypes = std::map<std::string, JobType, std::less<>>;
 
@@ -99,6 +102,7 @@ class JobRunner {
     [[nodiscard]] Result<bool> run_next();
     void run(JobContext& context);
     void finish(JobContext& context, const Result<void>& outcome);
+    void tell_ended(const schema::Job& job) const;
     // Tries until the database takes it, or the daemon stops.
     void insist(const std::function<Result<void>()>& write);
     [[nodiscard]] bool wait(std::chrono::milliseconds period);  // false: time to stop

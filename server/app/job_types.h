@@ -6,12 +6,14 @@
 #include "server/app/ingest_job.h"
 #include "server/app/job_runner.h"
 #include "server/app/snapshot_keeper.h"
+#include "server/app/video_service.h"
 
 namespace haarmony::server {
 
-// Requires: the first two outlive the jobs.
+// Requires: the first three outlive the jobs.
 [[nodiscard]] JobTypes job_types(const IndexFollower& follower,
                                  SnapshotKeeper& snapshots,
+                                 VideoService& videos,
                                  const IngestJobOptions& ingest,
                                  const ingest::DecodeLimits& decode);
 

@@ -156,12 +156,17 @@ std::optional<std::uint64_t> body_length(const Response& response) {
     return std::nullopt;
 }
 
+bool is_unmodified(const Request& request, std::string_view etag) {
+    const bool reads = request.method == "GET" || request.method == "HEAD";
+    const std::string_view condition = request.header("If-None-Match");
+    return reads && !condition.empty() && !etag.empty() &&
+           !if_none_match_holds(condition, etag);
+}
+
 void apply_conditions(const Request& request, Response& response) {
     const bool reads = request.method == "GET" || request.method == "HEAD";
     if (!reads || response.status != 200) return;
-    const std::string_view condition = request.header("If-None-Match");
-    const std::string_view etag = header_of(response, "ETag");
-    if (!condition.empty() && !etag.empty() && !if_none_match_holds(condition, etag)) {
+    if (is_unmodified(request, header_of(response, "ETag"))) {
         response.status = 304;
         response.body = std::string{};
         response.headers.erase("Content-Type");

@@ -18,6 +18,10 @@ namespace haarmony::http {
 // Turns a 200 into a 304, a 206 or a 416 where the request asks for it.
 void apply_conditions(const Request& request, Response& response);
 
+// Whether the client has the body with this tag already, so that apply_conditions() will
+// make a 304 of whatever the handler answers with it.
+[[nodiscard]] bool is_unmodified(const Request& request, std::string_view etag);
+
 // The comparisons of RFC 9110 section 8.8.3.2.
 [[nodiscard]] bool weakly_equal(std::string_view a, std::string_view b);
 [[nodiscard]] bool strongly_equal(std::string_view a, std::string_view b);

@@ -6,6 +6,7 @@
 // Threads values; a ChunkSource is pulled by one thread at a time, not always the same.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -57,6 +58,8 @@ struct Response {
     int status = 200;
     Headers headers;
     std::variant<std::string, FileRange, ChunkSource> body;
+    // How soon a ChunkSource that has nothing yet is asked again; 0: as the listener says.
+    std::chrono::milliseconds poll_interval{0};
 };
 
 using Handler = std::function<Response(const Request&)>;

@@ -69,7 +69,9 @@ net::awaitable<bool> Session::send_stream(Exchange& exchange, const ChunkSource&
         }
         if (end != JobEnd::kRan || !failure.empty() || left_) co_return abandon();
         if (chunk && chunk->empty() && !connection_->draining()) {
-            co_await sleep_until_woken(service_.options.poll_interval);
+            const auto asked = exchange.response.poll_interval;
+            co_await sleep_until_woken(
+                asked.count() > 0 ? asked : service_.options.poll_interval);
             if (left_) co_return abandon();
             continue;
         }

@@ -29,12 +29,21 @@ Interface::Interface(std::vector<std::string> media_roots, bool allow_url_fetch)
     if (!opened) throw std::runtime_error(opened.error().message);
     curves = std::move(opened).value();
     clusters = std::make_unique<ClusterOverview>(path, index, 1);
+    VideoServiceOptions showing;
+    showing.database_path = path;
+    auto shown = VideoService::open(showing);
+    if (!shown) throw std::runtime_error(shown.error().message);
+    videos = std::move(shown).value();
+    frames = std::make_unique<FrameSearch>(path, index.index_m());
     JobRunnerOptions running;
     running.database_path = path;
     running.progress_interval = std::chrono::milliseconds(0);
-    auto started = JobRunner::start(
-        running,
-        job_types(index, collection.service->snapshots(), {path, media_roots_, 1}, {}));
+    auto started = JobRunner::start(running,
+                                    job_types(index,
+                                              collection.service->snapshots(),
+                                              *videos,
+                                              {path, media_roots_, 1},
+                                              {}));
     if (!started) throw std::runtime_error(started.error().message);
     replace_jobs(std::move(started).value());
 }
@@ -46,6 +55,8 @@ void Interface::replace_jobs(std::unique_ptr<JobRunner> runner) {
                                                  *duplicates,
                                                  *clusters,
                                                  *curves,
+                                                 *videos,
+                                                 *frames,
                                                  media_roots_,
                                                  allow_url_fetch_});
     router_ = std::make_unique<http::Router>();

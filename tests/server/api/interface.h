@@ -43,10 +43,12 @@ class Interface {
     void sql(const std::string& statement);
 
     Collection collection;
+    std::unique_ptr<VideoService> videos;  // outlives the jobs
     std::unique_ptr<JobRunner> jobs;
     std::unique_ptr<DuplicateGroups> duplicates;
     std::unique_ptr<ClusterOverview> clusters;
     std::unique_ptr<CurveService> curves;
+    std::unique_ptr<FrameSearch> frames;
 
   private:
     MediaRoots media_roots_;

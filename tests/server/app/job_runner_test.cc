@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -346,6 +347,53 @@ TEST_F(JobRunnerTest, AFileThatIsNoDatabaseIsRefused) {
     const auto refused = JobRunner::start(options, {});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kNotADatabase);
+}
+
+// What a job was sent is thrown away then, and neither sooner nor never.
+TEST_F(JobRunnerTest, TheTypeHearsOfEveryEndAfterTheRowSaysSo) {
+    std::mutex mutex;
+    std::map<std::int64_t, JobState> ends;
+    Gate gate;
+    JobType type;
+    type.run = [&](JobContext& job) -> Result<void> {
+        if (job.request() == R"({"fail":1})")
+            return Error{ErrorCode::kInvalidArgument, "it had to"};
+        if (job.request() == R"({"wait":1})") gate.pass(job);
+        return {};
+    };
+    type.ended = [&](const schema::Job& job) {
+        const JobState state = stored(job.id).state;
+        const std::lock_guard lock(mutex);
+        ends[job.id] = state;
+    };
+    const auto jobs = runner({{"note", type}});
+    const auto end_of = [&](std::int64_t id) {
+        JobState state = JobState::kQueued;
+        EXPECT_TRUE(becomes_true([&] {
+            const std::lock_guard lock(mutex);
+            if (ends.contains(id)) state = ends[id];
+            return ends.contains(id);
+        }));
+        return state;
+    };
+    const auto id_of = [&](const std::string& request) {
+        return jobs->create("note", request)->id;
+    };
+    EXPECT_EQ(end_of(id_of("{}")), JobState::kDone);
+    EXPECT_EQ(end_of(id_of(R"({"fail":1})")), JobState::kFailed);
+    const auto running = id_of(R"({"wait":1})");
+    ASSERT_TRUE(gate.entered());
+    const auto queued = id_of("{}");
+    ASSERT_TRUE(jobs->cancel(queued));
+    EXPECT_EQ(end_of(queued), JobState::kCancelled);
+    ASSERT_TRUE(jobs->cancel(running));
+    EXPECT_EQ(end_of(running), JobState::kCancelled);
+    // A job that goes on at the next start has not ended.
+    const auto interrupted = id_of(R"({"wait":1})");
+    EXPECT_TRUE(
+        becomes_true([&] { return stored(interrupted).state == JobState::kRunning; }));
+    jobs->stop();
+    EXPECT_FALSE(ends.contains(interrupted));
 }
 
 }  // namespace

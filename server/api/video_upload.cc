@@ -1,0 +1,191 @@
+#include "server/api/video_upload.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/video/generate/generator.h"
+#include "engine/video/mrv_clip.h"
+#include "server/api/inputs.h"
+#include "server/api/leaves_json.h"
+#include "server/api/points_json.h"
+#include "server/api/video_wishes.h"
+#include "server/app/raw_frames.h"
+#include "server/app/video_request.h"
+#include "server/http/header_value.h"
+
+namespace haarmony::server {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+Bytes bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// "application/json; charset=utf-8" -> "application/json".
+std::string media_type_of(const http::Request& request) {
+    const std::string_view header = request.header("Content-Type");
+    return http::lower_case(http::trim(header.substr(0, header.find(';'))));
+}
+
+http::Problem unsupported(const std::string& type) {
+    return {415,
+            "unsupported_media_type",
+            "a body of type '" + type +
+                "' is not read; send frames of RGBA as application/octet-stream with "
+                "width and height, a .mrv file, or application/json",
+            "Content-Type",
+            {}};
+}
+
+// Whether the bytes are a .mrv file, or why they are a bad one.
+Outcome<bool> is_clip(Bytes bytes) {
+    // Nothing is decoded here.
+    constexpr std::size_t kNoCache = 0;
+    const auto clip = video::MrvClip::open(bytes, kNoCache);
+    if (clip) return true;
+    switch (clip.error().code) {
+        case ErrorCode::kUnsupportedFormat:
+            return false;
+        case ErrorCode::kNewerVersion:
+            return impossible("newer_version", clip.error().message, "");
+        default:
+            return clip.error();
+    }
+}
+
+Outcome<VideoRequest> read_raw(Inputs& inputs, const http::Request& request) {
+    VideoRequest video;
+    video.origin = VideoOrigin::kRaw;
+    video.wishes = read_video_wishes(inputs);
+    const auto format = read_frame_format(inputs);
+    for (const std::string_view side : {"width", "height"})
+        if (!inputs.has(side))
+            inputs.refuse(malformed(std::string(side) + " is missing", side));
+    if (const auto problem = inputs.refused()) return *problem;
+    video.format = format;
+    const auto one = video::ClipShape::make(format, 1);
+    if (!one) return impossible(one.error());
+    const std::size_t size = raw_frame_bytes(format);
+    const std::size_t bytes = request.body.size();
+    if (bytes == 0 || bytes % size != 0)
+        return impossible("not_whole_frames",
+                          std::to_string(bytes) + " bytes are not whole frames of " +
+                              std::to_string(size),
+                          "width");
+    const auto shape =
+        video::ClipShape::make(format, static_cast<std::int64_t>(bytes / size));
+    if (!shape) return impossible(shape.error());
+    return video;
+}
+
+Outcome<VideoRequest> read_clip(Inputs& inputs) {
+    VideoRequest video;
+    video.origin = VideoOrigin::kClip;
+    for (const std::string_view name : {"delta", "max_frames"})
+        if (inputs.has(name))
+            inputs.refuse(malformed(
+                std::string(name) + " does not apply: a .mrv file is kept as it is",
+                name));
+    video.wishes = read_video_wishes(inputs);
+    if (const auto problem = inputs.refused()) return *problem;
+    return video;
+}
+
+Reply post_bytes(const Context& context,
+                 const http::Request& request,
+                 const std::string& type) {
+    auto inputs = Inputs::of_query(request);
+    if (!inputs) return inputs.problem();
+    const bool raw = type == "application/octet-stream" &&
+                     (inputs->has("width") || inputs->has("height"));
+    if (raw) {
+        auto video = read_raw(*inputs, request);
+        if (!video) return video.problem();
+        return queue_video(context, *std::move(video), bytes_of(request.body));
+    }
+    auto clip = is_clip(bytes_of(request.body));
+    if (!clip) return clip.problem();
+    if (*clip) {
+        auto video = read_clip(*inputs);
+        if (!video) return video.problem();
+        return queue_video(context, *std::move(video), bytes_of(request.body));
+    }
+    if (type == "application/octet-stream") {
+        auto video = read_raw(*inputs, request);
+        if (!video) return video.problem();
+    }
+    return unsupported(type);
+}
+
+Reply post_leaves(const Context& context, Inputs& inputs) {
+    VideoRequest video;
+    video.origin = VideoOrigin::kLeaves;
+    video.wishes = read_video_wishes(inputs);
+    const video::FrameFormat format = read_frame_format(inputs);
+    const nlohmann::json* frames = inputs.peek("frames");
+    if (const auto problem = inputs.refused()) return *problem;
+    auto leaves = read_leaf_frames(*frames, format);
+    if (!leaves) return leaves.problem();
+    video.format = leaves->format;
+    return queue_video(context, std::move(video), leaves->bytes);
+}
+
+Reply post_generator(const Context& context, Inputs& inputs) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    VideoRequest video;
+    video.origin = VideoOrigin::kGenerated;
+    video.generator =
+        inputs.one_of("generate", video::kGeneratorNames).value_or(std::string());
+    video.wishes = read_video_wishes(inputs);
+    const video::FrameFormat format = read_frame_format(inputs);
+    video.parameters.width = format.width;
+    video.parameters.height = format.height;
+    video.parameters.rate = format.rate;
+    video.parameters.frames = inputs.integer("frames", -kMost, kMost).value_or(0);
+    if (const auto depth = inputs.integer("depth", -kMost, kMost))
+        video.parameters.depth = static_cast<int>(*depth);
+    video.parameters.seed =
+        static_cast<std::uint32_t>(inputs.integer("seed", 0, kMost).value_or(1));
+    for (const std::string_view name : {"width", "height", "frames"})
+        if (inputs.has(name) && inputs.integer(name, -kMost, kMost) == 0)
+            inputs.refuse(
+                impossible("out_of_range", std::string(name) + " is not above 0", name));
+    if (const auto problem = inputs.refused()) return *problem;
+    const auto source = video::make_generator(video.generator, video.parameters);
+    if (!source) return impossible(source.error());
+    return queue_video(context, std::move(video), {});
+}
+
+Reply post_json(const Context& context, const http::Request& request) {
+    if (request.body.size() > context.max_body)
+        return http::Problem{413,
+                             "body_too_large",
+                             "JSON of " + std::to_string(request.body.size()) +
+                                 " bytes is longer than the " +
+                                 std::to_string(context.max_body) + " that are taken",
+                             "Content-Length",
+                             {}};
+    auto inputs = Inputs::of_request(request);
+    if (!inputs) return inputs.problem();
+    if (inputs->has("generate")) return post_generator(context, *inputs);
+    if (inputs->has("frames")) return post_leaves(context, *inputs);
+    return http::Problem{400,
+                         "no_source",
+                         "there is nothing to make a video of: send frames or generate",
+                         "frames",
+                         {}};
+}
+
+}  // namespace
+
+Reply post_video(const Context& context, const http::Request& request) {
+    const std::string type = media_type_of(request);
+    return type == "application/json" ? post_json(context, request)
+                                      : post_bytes(context, request, type);
+}
+
+}  // namespace haarmony::server

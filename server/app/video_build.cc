@@ -1,0 +1,176 @@
+#include "server/app/video_build.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/video/accounting.h"
+#include "engine/video/build.h"
+#include "engine/video/mrv_clip.h"
+#include "engine/video/mrv_writer.h"
+#include "server/app/file_spool.h"
+#include "server/app/frame_signatures.h"
+#include "server/app/mapped_file.h"
+
+namespace haarmony::server {
+namespace {
+
+// Of decoded layers, while a clip is counted: the walk comes back to the time-ancestors.
+constexpr std::size_t kCountingCache = std::size_t{128} << 20;
+
+// What the whole clip takes when all of it is decoded.
+Result<std::uint64_t> memory_of(const video::TimeTree& clip) {
+    const int finest = std::max(clip.shape().space_levels(), video::kBrickLevel);
+    std::uint64_t bytes = 0;
+    std::vector<video::SiblingAddress> waiting{{0, 0}};
+    while (!waiting.empty()) {
+        const video::SiblingAddress at = waiting.back();
+        waiting.pop_back();
+        if (!clip.stored(at)) continue;
+        const auto nodes = clip.nodes(at);
+        if (!nodes) return nodes.error();
+        bytes += sizeof(video::TimeNode) * static_cast<std::size_t>((*nodes)->count);
+        for (int level = video::kBrickLevel; level <= finest; ++level) {
+            const auto layer = clip.layer(at, level);
+            if (!layer) return layer.error();
+            bytes += (*layer)->memory_bytes();
+        }
+        if (at.time_level == clip.shape().time_levels()) continue;
+        const std::int64_t first = at.time_level == 0 ? 0 : 2 * at.index;
+        for (int i = (*nodes)->count - 1; i >= 0; --i)
+            waiting.push_back({at.time_level + 1, first + i});
+    }
+    return bytes;
+}
+
+std::string hexadecimal(std::uint64_t revision) {
+    char text[17];
+    std::snprintf(
+        text, sizeof text, "%016llx", static_cast<unsigned long long>(revision));
+    return text;
+}
+
+Result<schema::Video> describe(const video::MrvClip& clip,
+                               std::uint64_t file_bytes,
+                               const VideoWishes& wishes) {
+    const auto counts = video::count_storage(clip);
+    if (!counts) return counts.error();
+    const auto memory = memory_of(clip);
+    if (!memory) return memory.error();
+    const video::ClipShape& shape = clip.shape();
+    schema::Video row;
+    row.revision = hexadecimal(clip.revision());
+    row.name = wishes.name;
+    row.width = shape.width();
+    row.height = shape.height();
+    row.frames = shape.frames();
+    row.rate_numerator = shape.rate().numerator;
+    row.rate_denominator = shape.rate().denominator;
+    row.delta = static_cast<double>(clip.delta()) / video::kDifferenceOne;
+    row.storage = {static_cast<std::int64_t>(counts->time_nodes),
+                   static_cast<std::int64_t>(counts->complete_subtrees),
+                   static_cast<std::int64_t>(counts->pruned_subtrees),
+                   static_cast<std::int64_t>(counts->own_subtrees),
+                   static_cast<std::int64_t>(counts->uplinks),
+                   static_cast<std::int64_t>(*memory),
+                   static_cast<std::int64_t>(file_bytes)};
+    row.indexed = wishes.index;
+    return row;
+}
+
+void tell(JobContext& job, const schema::Video& video) {
+    job.counts().seen = video.frames;
+    job.counts().added = 1;
+    job.set_total(video.frames);
+    job.note("video", video.id);
+}
+
+// Whether an earlier run of the job has come to its end already.
+Result<bool> made_before(JobContext& job, VideoService& videos) {
+    const auto before = videos.made_by(job.job().id);
+    if (!before) return before.error();
+    if (before->has_value()) tell(job, **before);
+    return before->has_value();
+}
+
+// Written, and on the disk.
+Result<void> write_clip(JobContext& job,
+                        const VideoFiles& files,
+                        video::FrameSource& source,
+                        const VideoWishes& wishes) {
+    auto averages = FileSpool::nameless(files.folder());
+    if (!averages) return averages.error();
+    auto waiting = FileSpool::nameless(files.folder());
+    if (!waiting) return waiting.error();
+    auto file = FileSpool::named(files.building_path(job.job().id));
+    if (!file) return file.error();
+    video::MrvWriter writer(*waiting, *file);
+    video::BuildOptions options;
+    options.delta = delta_units(wishes.delta);
+    options.max_frames = wishes.max_frames;
+    options.progress = [&job](std::int64_t frames, std::int64_t nodes) {
+        job.counts().seen = frames;
+        job.counts().updated = nodes;
+        job.progress();
+        return !job.cancelled();
+    };
+    const auto shape = video::build(source, *averages, writer, options);
+    if (!shape) return shape.error();
+    return file->sync();
+}
+
+}  // namespace
+
+Result<void> keep_video(JobContext& job,
+                        VideoService& videos,
+                        const std::string& path,
+                        const VideoWishes& wishes) {
+    const auto before = made_before(job, videos);
+    if (!before) return before.error();
+    if (*before) return {};
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
+    if (!clip) return clip.error();
+    auto row = describe(**clip, (*file)->bytes().size(), wishes);
+    if (!row) return row.error();
+    row->job = job.job().id;
+    std::vector<schema::FrameSignature> frames;
+    if (wishes.index) {
+        auto signatures = frame_signatures(**clip, [&job] {
+            job.progress();
+            return !job.cancelled();
+        });
+        if (!signatures) return signatures.error();
+        frames = *std::move(signatures);
+    }
+    if (job.cancelled()) return {};
+    const auto added = videos.add(path, *row, frames);
+    if (!added) return added.error();
+    tell(job, *added);
+    return {};
+}
+
+Result<void> build_video(JobContext& job,
+                         VideoService& videos,
+                         video::FrameSource& source,
+                         const VideoWishes& wishes,
+                         std::optional<std::int64_t> frames) {
+    const auto before = made_before(job, videos);
+    if (!before) return before.error();
+    if (*before) return {};
+    if (frames) job.set_total(*frames);
+    const std::string path = videos.files().building_path(job.job().id);
+    Result<void> done = write_clip(job, videos.files(), source, wishes);
+    if (done) done = keep_video(job, videos, path, wishes);
+    // Gone where it was published.
+    ::unlink(path.c_str());
+    if (job.was_interrupted()) return {};
+    return done;
+}
+
+}  // namespace haarmony::server

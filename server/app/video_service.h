@@ -1,0 +1,106 @@
+// The videos: rows of the database and the clips in their files, opened when they are asked
+// for.
+//
+//   server/api/video* -> [video_service] -> schema/video_store, engine/video/mrv_clip
+//   video_job -> [video_service]
+//
+// A clip that somebody looks at stays readable until he lets go of it, also when the video
+// is removed meanwhile.
+//
+// Errors   the store's; kUndecodable for a file that is damaged, kIo for one that is gone.
+// Threads  every member from any thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/video/time_tree.h"
+#include "schema/video_store.h"
+#include "server/app/connection.h"
+#include "server/app/reply_cache.h"
+#include "server/app/video_files.h"
+
+namespace haarmony::server {
+
+struct VideoServiceOptions {
+    std::string database_path;
+    // Of decoded layers, for each clip that is open, and how many are at the same time.
+    std::size_t clip_cache_bytes = std::size_t{32} << 20;
+    std::size_t open_clips = 8;
+    std::size_t reply_cache_bytes = std::size_t{64} << 20;  // of encoded pictures
+};
+
+// A video that is looked at.
+class OpenVideo {
+  public:
+    virtual ~OpenVideo() = default;
+    [[nodiscard]] const schema::Video& row() const { return row_; }
+    [[nodiscard]] const video::TimeTree& clip() const { return *clip_; }
+
+  protected:
+    OpenVideo(schema::Video row, std::unique_ptr<video::TimeTree> clip)
+        : row_(std::move(row)), clip_(std::move(clip)) {}
+
+  private:
+    schema::Video row_;
+    std::unique_ptr<video::TimeTree> clip_;
+};
+
+class VideoService {
+  public:
+    // Deletes the files that belong to nobody.
+    [[nodiscard]] static Result<std::unique_ptr<VideoService>> open(
+        const VideoServiceOptions& options);
+
+    [[nodiscard]] Result<schema::Video> get(std::int64_t id);
+    [[nodiscard]] Result<std::vector<schema::Video>> list(int limit, std::int64_t after);
+    [[nodiscard]] Result<std::int64_t> count();
+    [[nodiscard]] Result<void> remove(std::int64_t id);
+
+    // kNotFound where the video is gone, whoever has it open.
+    [[nodiscard]] Result<std::shared_ptr<const OpenVideo>> clip(std::int64_t id);
+
+    // The file `built` becomes a clip, with its row and the signatures of its frames. What
+    // job `video.job` has added already is answered instead of being added again.
+    // Requires: its content is on the disk.
+    [[nodiscard]] Result<schema::Video> add(
+        const std::string& built,
+        const schema::Video& video,
+        std::span<const schema::FrameSignature> frames);
+    [[nodiscard]] Result<std::optional<schema::Video>> made_by(std::int64_t job);
+
+    [[nodiscard]] VideoFiles& files() { return files_; }
+    [[nodiscard]] ReplyCache& replies() { return replies_; }
+    [[nodiscard]] ReadConnections& readers() { return readers_; }
+
+  private:
+    VideoService(const VideoServiceOptions& options, std::unique_ptr<Connection> writer);
+    [[nodiscard]] Result<void> sweep();
+    template <typename Work>
+    auto read(Work&& work);
+
+    struct Held {
+        std::shared_ptr<const OpenVideo> video;
+        std::uint64_t used = 0;  // the larger, the later
+    };
+
+    const VideoServiceOptions options_;
+    VideoFiles files_;
+    ReplyCache replies_;
+
+    std::mutex writer_mutex_;  // guards writer_
+    std::unique_ptr<Connection> writer_;
+    ReadConnections readers_;
+
+    std::mutex mutex_;  // guards the two below
+    std::map<std::int64_t, Held> held_;
+    std::uint64_t uses_ = 0;
+};
+
+}  // namespace haarmony::server
