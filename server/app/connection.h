@@ -17,6 +17,7 @@
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
 #include "schema/snapshot_store.h"
+#include "schema/video_store.h"
 #include "server/app/lending_pool.h"
 
 namespace haarmony::server {
@@ -39,6 +40,7 @@ class Connection {
     [[nodiscard]] schema::DuplicateStore& duplicates() { return duplicates_; }
     [[nodiscard]] schema::CurveStore& curves() { return curves_; }
     [[nodiscard]] schema::SnapshotStore& snapshots() { return snapshots_; }
+    [[nodiscard]] schema::VideoStore& videos() { return videos_; }
 
   private:
     explicit Connection(schema::Database database)
@@ -49,7 +51,8 @@ class Connection {
           jobs_(database_),
           duplicates_(database_),
           curves_(database_),
-          snapshots_(database_) {}
+          snapshots_(database_),
+          videos_(database_) {}
 
     schema::Database database_;
     schema::ImageStore images_;
@@ -59,6 +62,7 @@ class Connection {
     schema::DuplicateStore duplicates_;
     schema::CurveStore curves_;
     schema::SnapshotStore snapshots_;
+    schema::VideoStore videos_;
 };
 
 using ReadConnections = LendingPool<Connection>;

@@ -11,6 +11,7 @@
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
 #include "schema/snapshot_store.h"
+#include "schema/video_store.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
 #include "tests/schema/scratch_folder.h"
@@ -40,7 +41,11 @@ void add_newer_rows(sqlite3* database, int version) {
         {9, "INSERT INTO snapshots VALUES (2, x'" + kToken + "', 5, '2020')"},
         {10,
          "INSERT INTO curves VALUES (6, 'stroke', 'old', 1, 1, x'000000000000F03F',"
-         " '2020')"}};
+         " '2020')"},
+        {11,
+         "INSERT INTO videos VALUES (8, '0123456789abcdef', 'old', 3, 4, 5, 30, 1, 0.5,"
+         " 1, 2, 3, 4, 5, 6, 7, 1, NULL, '2020');"
+         "INSERT INTO frame_signatures VALUES (2, 8, 3, 4, 1, x'0a')"}};
     for (const auto& [since, sql] : rows) {
         if (version >= since) run_sql(database, sql);
     }
@@ -66,6 +71,13 @@ void expect_newer_rows(Database& database, int version) {
     ASSERT_EQ(stroke.has_value(), version >= 10);
     if (stroke) {
         EXPECT_EQ(stroke->numbers, std::vector<double>{1});
+    }
+    VideoStore videos(database);
+    const auto video = videos.get(8);
+    ASSERT_EQ(video.has_value(), version >= 11);
+    if (video) {
+        EXPECT_EQ(video->frames, 5);
+        EXPECT_EQ(expect(videos.frames_after(0, 9)).size(), 1u);
     }
     DuplicateStore duplicates(database);
     EXPECT_EQ(expect(duplicates.pairs(0)).size(), version >= 8 ? 1u : 0u);

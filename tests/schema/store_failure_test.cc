@@ -11,6 +11,7 @@
 #include "schema/job_store.h"
 #include "schema/profile_store.h"
 #include "schema/snapshot_store.h"
+#include "schema/video_store.h"
 #include "tests/schema/failing_files.h"
 #include "tests/schema/pictures.h"
 #include "tests/schema/raw_sql.h"
@@ -30,6 +31,7 @@ struct Stores {
     FeedbackStore feedback{database};
     DuplicateStore duplicates{database};
     SnapshotStore snapshots{database};
+    VideoStore videos{database};
 };
 
 StoredProfile some_profile() {
@@ -50,9 +52,25 @@ NewFeedback some_feedback() {
     return feedback;
 }
 
-// Pictures 1 and 2, profile p, job 1 running, feedback 1, generation 1 published and 2 open.
+Video some_video() {
+    Video video;
+    video.revision = "0123456789abcdef";
+    video.width = 2;
+    video.height = 3;
+    video.frames = 4;
+    return video;
+}
+
+Result<Video> add_video(Stores& stores) {
+    const std::vector<FrameSignature> frames{{0, 0, 2, 0, 0, {1}}, {0, 0, 2, 1, 0, {2}}};
+    return stores.videos.add(
+        some_video(), frames, [](const Video&) { return Result<void>(); });
+}
+
+// Video 1, pictures 1 and 2, profile p, job 1 running, feedback 1, generation 1 published and 2 open.
 void fill(const std::string& path) {
     Stores stores(path);
+    expect(add_video(stores));
     for (int number = 1; number <= 2; ++number) {
         NewImage image = upload_picture(number);
         image.variants = {{"lab", some_bytes(number, 50)}};
@@ -85,7 +103,9 @@ std::string rows_of(const std::string& path) {
           "generation, published FROM duplicate_generations",
           "generation, a, b FROM duplicates",
           "a, b FROM ignored_duplicates",
-          "number, seq FROM snapshots"}) {
+          "number, seq FROM snapshots",
+          "id, revision, name, frames FROM videos",
+          "id, video_id, node, hex(signature) FROM frame_signatures"}) {
         const auto from = columns.find(" FROM");
         all += sql_text(database.handle(),
                         "SELECT coalesce(group_concat(json_array(" +
@@ -196,6 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
             [](Stores& s) { return without_value(s.feedback.add(some_feedback())); }},
         Operation{"AddSnapshot",
                   [](Stores& s) { return without_value(s.snapshots.add(1)); }},
+        Operation{"AddVideo", [](Stores& s) { return without_value(add_video(s)); }},
+        Operation{"RemoveVideo",
+                  [](Stores& s) { return without_value(s.videos.remove(1)); }},
         Operation{"RemoveFeedback", [](Stores& s) { return s.feedback.remove(1); }},
         Operation{
             "BeginGeneration",
@@ -290,6 +313,20 @@ TEST(BrokenPage, IsAnErrorOfEveryFunctionOfTheStoresThatMeetsIt) {
         {"ignored_duplicates",
          {[](Stores& s) { return s.duplicates.ignore(ImageId{1}, ImageId{2}); },
           [](Stores& s) { return without_value(s.duplicates.ignored()); }}},
+        {"videos",
+         {[](Stores& s) { return without_value(s.videos.get(1)); },
+          [](Stores& s) { return without_value(s.videos.list(9, 0)); },
+          [](Stores& s) { return without_value(s.videos.remove(1)); },
+          [](Stores& s) { return without_value(add_video(s)); },
+          [](Stores& s) {
+              return s.videos.while_nobody_writes(
+                  [](const std::vector<Video>&) { return Result<void>(); });
+          }}},
+        {"videos_job", {[](Stores& s) { return without_value(s.videos.made_by(1)); }}},
+        {"sqlite_autoindex_frame_signatures_1",
+         {[](Stores& s) { return without_value(s.videos.frames_version()); }}},
+        {"frame_signatures",
+         {[](Stores& s) { return without_value(s.videos.frames_after(0, 9)); }}},
         {"images_content",
          {[](Stores& s) { return without_value(s.duplicates.same_content()); }}},
     };
