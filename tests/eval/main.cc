@@ -1,5 +1,5 @@
-// haarmony-eval: measures how well and how fast the search works on one's own pictures, and
-// draws the figures of the curves.
+// haarmony-eval: measures how well and how fast the search works on one's own pictures, draws
+// the figures of the curves, and measures multiresolution video on one's own clips.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -14,6 +14,7 @@
 #include "tests/eval/replay.h"
 #include "tests/eval/speed_report.h"
 #include "tests/eval/train_profile.h"
+#include "tests/eval/video_report.h"
 #include "tests/eval/worker_threads.h"
 
 namespace {
@@ -79,6 +80,21 @@ int run_speed(SpeedCommand command) {
         if (status != 0) return status;
     }
     return report->mismatches() == 0 ? 0 : 1;
+}
+
+struct VideoCommand {
+    std::string out;
+    haarmony::eval::VideoOptions options;
+};
+
+int run_video(const VideoCommand& command) {
+    const auto report = haarmony::eval::measure_video(
+        command.options, [](const std::string& line) { std::cerr << line << '\n'; });
+    if (!report) return failed(report.error());
+    std::cout << to_text(*report);
+    const int status = write_and_list(video_files(*report), command.out);
+    if (status != 0) return status;
+    return report->broken_bounds() == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -185,6 +201,31 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
 
+    VideoCommand video_command;
+    CLI::App* video = app.add_subcommand(
+        "video",
+        "sizes, bounds and speed of multiresolution video; exit code 1: a lossy clip is "
+        "farther from its source than it says");
+    video->add_option("--clips", video_command.options.clips, "folder of clips")
+        ->required();
+    video->add_option("--out", video_command.out, "folder for the tables")->required();
+    video
+        ->add_option(
+            "--frames", video_command.options.frames, "of each clip, the first ones")
+        ->check(CLI::Range(1, 1 << 16))
+        ->capture_default_str();
+    video
+        ->add_option("--questions",
+                     video_command.options.speed.questions,
+                     "frames drawn by lot for each time")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    video
+        ->add_option(
+            "--rounds", video_command.options.speed.rounds, "of builds and encodings")
+        ->check(CLI::Range(1, 1'000))
+        ->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -194,6 +235,7 @@ int main(int argc, char** argv) {
         return haarmony::eval::train_profile(training, std::cout, std::cerr);
     if (curves->parsed())
         return write_and_list(haarmony::eval::make_curve_figures(), curves_out);
+    if (video->parsed()) return run_video(video_command);
     if (speed->parsed()) return run_speed(std::move(speed_command));
     if (replay->parsed()) {
         const auto replayed = haarmony::eval::replay_database(replay_options, std::cout);
