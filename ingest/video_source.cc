@@ -112,7 +112,10 @@ Result<bool> ChildSource::next(TimedPicture& shown) {
                      "the " + std::string(name_of(kind_)) + " has more than " +
                          std::to_string(options_.max_frames) + " frames"};
     }
-    if (shown.picture.width != format_.width || shown.picture.height != format_.height) {
+    const auto pixels = static_cast<std::size_t>(format_.width) *
+                        static_cast<std::size_t>(format_.height);
+    // Whoever has moved the last picture away has left its size here.
+    if (shown.picture.width != format_.width || shown.picture.pixels.size() != pixels) {
         shown.picture = video::Picture(format_.width, format_.height);
     }
     const Received received =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "tests/engine/video/tree_pixels.h"
 #include "tests/ingest/video/clips.h"
@@ -215,6 +216,19 @@ TEST(KeyFrames, AreThoseOfTheFilmWithTheirTimes) {
     ASSERT_EQ(all->pictures.size(), 7U);
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(keys->pictures[i], all->pictures[2 * i]) << i;
+    }
+}
+
+TEST(VideoSource, APictureMayBeMovedAwayBeforeTheNext) {
+    const Clip clip = moving_clip({40, 30, {10, 1}}, 3, Alpha::kRandom);
+    const auto pictures = open_video(write_film(clip, Container::kApng), {});
+    ASSERT_TRUE(pictures) << pictures.error().message;
+    TimedPicture shown;
+    for (const video::Picture& picture : clip.pictures) {
+        const auto more = (*pictures)->next(shown);
+        ASSERT_TRUE(more && *more);
+        const video::Picture moved = std::move(shown.picture);
+        EXPECT_EQ(moved, picture);
     }
 }
 
