@@ -59,12 +59,19 @@ TEST(Status, UntilTheCollectionIsLoadedTheDaemonIsWellButNotReady) {
     ASSERT_TRUE(duplicates);
     const auto curves = CurveService::open(collection.path());
     ASSERT_TRUE(curves);
+    VideoServiceOptions showing;
+    showing.database_path = collection.path();
+    const auto videos = VideoService::open(showing);
+    ASSERT_TRUE(videos);
+    FrameSearch frames(collection.path(), service.value()->index().index_m());
     ClusterOverview clusters(collection.path(), service.value()->index(), 0);
     const Context context{*service.value(),
                           *jobs.value(),
                           *duplicates.value(),
                           clusters,
                           *curves.value(),
+                          *videos.value(),
+                          frames,
                           MediaRoots::open({}).value()};
     http::Router router;
     add_routes(context, router);
