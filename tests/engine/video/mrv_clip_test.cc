@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "engine/video/mrv_format.h"
-#include "tests/engine/video/random_links.h"
 #include "tests/engine/video/plain_clip.h"
+#include "tests/engine/video/random_links.h"
 
 namespace haarmony::video::testing {
 namespace {

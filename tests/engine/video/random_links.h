@@ -17,7 +17,10 @@ struct LinkedClip {
     std::vector<Siblings> siblings;  // parents before their children
 };
 
-[[nodiscard]] LinkedClip linked_clip(int width, int height, int frames, std::uint32_t seed);
+[[nodiscard]] LinkedClip linked_clip(int width,
+                                     int height,
+                                     int frames,
+                                     std::uint32_t seed);
 
 // The .mrv file that a writer makes of the siblings.
 [[nodiscard]] std::vector<std::byte> mrv_bytes(const LinkedClip& clip);

@@ -166,14 +166,14 @@ TEST(VideoReport, EveryMissIsNamedWithWhatWasReached) {
     report.speed[1].ratio.median = 9;
     EXPECT_EQ(report.broken_bounds(), 1);
     EXPECT_FALSE(report.speed[0].met());
-    EXPECT_EQ(
-        report.misses(),
-        (std::vector<std::string>{"walk: memory / raw 2.5, target 2.2",
-                                  "walk: mrv / FFV1 3.01, target 3",
-                                  "art: memory / raw 0.16, target 0.15",
-                                  "walk: difference at delta 4 4.5, target 4",
-                                  "walk: video/draw-full Mpixel/s 900, target 1000",
-                                  "walk: video/jump-quarter beside libav x 9, target 10"}));
+    EXPECT_EQ(report.misses(),
+              (std::vector<std::string>{
+                  "walk: memory / raw 2.5, target 2.2",
+                  "walk: mrv / FFV1 3.01, target 3",
+                  "art: memory / raw 0.16, target 0.15",
+                  "walk: difference at delta 4 4.5, target 4",
+                  "walk: video/draw-full Mpixel/s 900, target 1000",
+                  "walk: video/jump-quarter beside libav x 9, target 10"}));
 }
 
 }  // namespace
