@@ -1,19 +1,26 @@
 #include "server/api/video_upload.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "engine/video/generate/generator.h"
 #include "engine/video/mrv_clip.h"
+#include "ingest/sniff.h"
+#include "ingest/video_source.h"
 #include "server/api/inputs.h"
 #include "server/api/leaves_json.h"
 #include "server/api/points_json.h"
 #include "server/api/video_wishes.h"
+#include "server/app/mapped_file.h"
 #include "server/app/raw_frames.h"
 #include "server/app/video_request.h"
 #include "server/http/header_value.h"
@@ -25,18 +32,29 @@ using Bytes = std::span<const std::byte>;
 
 Bytes bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
+std::span<const std::uint8_t> first_of(std::string_view bytes) {
+    return {reinterpret_cast<const std::uint8_t*>(bytes.data()),
+            std::min(bytes.size(), ingest::kSniffBytes)};
+}
+
 // "application/json; charset=utf-8" -> "application/json".
 std::string media_type_of(const http::Request& request) {
     const std::string_view header = request.header("Content-Type");
     return http::lower_case(http::trim(header.substr(0, header.find(';'))));
 }
 
-http::Problem unsupported(const std::string& type) {
+// Of bytes that are neither a clip nor a film.
+http::Problem unsupported(std::string_view bytes, const std::string& type) {
+    const auto known = ingest::sniff(first_of(bytes));
+    const std::string what =
+        known ? std::string(known->name) + " (" + std::string(known->media_type) + ")"
+              : "a body of type '" + type + "'";
     return {415,
-            "unsupported_media_type",
-            "a body of type '" + type +
-                "' is not read; send frames of RGBA as application/octet-stream with "
-                "width and height, a .mrv file, or application/json",
+            "unsupported_format",
+            what +
+                " is not read; send a film, an animation, a .mrv file, frames of RGBA "
+                "as application/octet-stream with width and height, or "
+                "application/json",
             "Content-Type",
             {}};
 }
@@ -95,6 +113,14 @@ Outcome<VideoRequest> read_clip(Inputs& inputs) {
     return video;
 }
 
+Outcome<VideoRequest> read_media(Inputs& inputs) {
+    VideoRequest video;
+    video.origin = VideoOrigin::kMedia;
+    video.wishes = read_video_wishes(inputs);
+    if (const auto problem = inputs.refused()) return *problem;
+    return video;
+}
+
 Reply post_bytes(const Context& context,
                  const http::Request& request,
                  const std::string& type) {
@@ -114,11 +140,49 @@ Reply post_bytes(const Context& context,
         if (!video) return video.problem();
         return queue_video(context, *std::move(video), bytes_of(request.body));
     }
+    if (ingest::is_video(first_of(request.body))) {
+        auto video = read_media(*inputs);
+        if (!video) return video.problem();
+        return queue_video(context, *std::move(video), bytes_of(request.body));
+    }
     if (type == "application/octet-stream") {
+        // Frames without their size.
         auto video = read_raw(*inputs, request);
         if (!video) return video.problem();
     }
-    return unsupported(type);
+    return unsupported(request.body, type);
+}
+
+// A file or a folder of the server.
+Reply post_path(const Context& context, Inputs& inputs) {
+    const std::string path = inputs.text("path").value_or("");
+    auto video = read_media(inputs);
+    if (!video) return video.problem();
+    const auto real = context.media_roots.locate_path(path);
+    if (!real) {
+        http::Problem problem = http::problem_of(real.error());
+        problem.param = "path";
+        return problem;
+    }
+    video->path = path;
+    std::error_code error;
+    if (std::filesystem::is_directory(*real, error))
+        return queue_video(context, *std::move(video), {});
+    const auto file = MappedFile::open(*real);
+    if (!file) return file.error();
+    const Bytes bytes = (*file)->bytes();
+    auto clip = is_clip(bytes);
+    if (!clip) return clip.problem();
+    if (*clip) {
+        // Its own file becomes the video's, so it is a copy.
+        auto kept = read_clip(inputs);
+        if (!kept) return kept.problem();
+        return queue_video(context, *std::move(kept), bytes);
+    }
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                bytes.size());
+    if (!ingest::is_video(first_of(text))) return unsupported(text, "");
+    return queue_video(context, *std::move(video), {});
 }
 
 Reply post_leaves(const Context& context, Inputs& inputs) {
@@ -150,10 +214,8 @@ Reply post_generator(const Context& context, Inputs& inputs) {
         video.parameters.depth = static_cast<int>(*depth);
     video.parameters.seed =
         static_cast<std::uint32_t>(inputs.integer("seed", 0, kMost).value_or(1));
-    for (const std::string_view name : {"width", "height", "frames"})
-        if (inputs.has(name) && inputs.integer(name, -kMost, kMost) == 0)
-            inputs.refuse(
-                impossible("out_of_range", std::string(name) + " is not above 0", name));
+    if (video.parameters.frames < 1 && inputs.has("frames"))
+        inputs.refuse(impossible("out_of_range", "frames is not above 0", "frames"));
     if (const auto problem = inputs.refused()) return *problem;
     const auto source = video::make_generator(video.generator, video.parameters);
     if (!source) return impossible(source.error());
@@ -171,11 +233,22 @@ Reply post_json(const Context& context, const http::Request& request) {
                              {}};
     auto inputs = Inputs::of_request(request);
     if (!inputs) return inputs.problem();
+    const int sources = (inputs->has("generate") ? 1 : 0) +
+                        (inputs->has("path") ? 1 : 0) +
+                        (inputs->has("frames") && !inputs->has("generate") ? 1 : 0);
+    if (sources > 1)
+        return http::Problem{400,
+                             "several_sources",
+                             "only one of path, generate and frames may be given",
+                             "path",
+                             {}};
+    if (inputs->has("path")) return post_path(context, *inputs);
     if (inputs->has("generate")) return post_generator(context, *inputs);
     if (inputs->has("frames")) return post_leaves(context, *inputs);
     return http::Problem{400,
                          "no_source",
-                         "there is nothing to make a video of: send frames or generate",
+                         "there is nothing to make a video of: send frames, path or "
+                         "generate",
                          "frames",
                          {}};
 }

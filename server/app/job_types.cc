@@ -16,7 +16,7 @@ JobTypes job_types(const IndexFollower& follower,
             {"ingest", ingest_job(ingest)},
             {"reindex", reindex_job(decode)},
             {"snapshot", snapshot_job(follower, snapshots)},
-            {"video", video_job(videos)}};
+            {"video", video_job(videos, ingest.media_roots)}};
 }
 
 }  // namespace haarmony::server

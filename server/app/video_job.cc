@@ -12,6 +12,7 @@
 #include "server/app/mapped_file.h"
 #include "server/app/raw_frames.h"
 #include "server/app/video_build.h"
+#include "server/app/video_media.h"
 #include "server/app/video_request.h"
 
 namespace haarmony::server {
@@ -94,7 +95,22 @@ Result<void> build_composed(JobContext& job,
     return build_video(job, videos, **source, request.wishes, opened->shape().frames());
 }
 
-Result<void> run(JobContext& job, VideoService& videos) {
+Result<void> build_media(JobContext& job,
+                         VideoService& videos,
+                         const MediaRoots& media_roots,
+                         const VideoRequest& request) {
+    std::string path = videos.files().input_path(request.input);
+    if (!request.path.empty()) {
+        auto real = media_roots.locate_path(request.path);
+        if (!real) return real.error();
+        path = *std::move(real);
+    }
+    const auto source = open_media(path, media_roots);
+    if (!source) return source.error();
+    return build_video(job, videos, **source, request.wishes, std::nullopt);
+}
+
+Result<void> run(JobContext& job, VideoService& videos, const MediaRoots& media_roots) {
     const auto request = video_request_of(job.request());
     if (!request) return request.error();
     switch (request->origin) {
@@ -108,6 +124,8 @@ Result<void> run(JobContext& job, VideoService& videos) {
             return build_generated(job, videos, *request);
         case VideoOrigin::kComposed:
             return build_composed(job, videos, *request);
+        case VideoOrigin::kMedia:
+            return build_media(job, videos, media_roots, *request);
     }
     return Error{ErrorCode::kInvalidArgument,
                  "the request " + job.request() + " is not understood"};
@@ -115,9 +133,11 @@ Result<void> run(JobContext& job, VideoService& videos) {
 
 }  // namespace
 
-JobType video_job(VideoService& videos) {
+JobType video_job(VideoService& videos, const MediaRoots& media_roots) {
     JobType type;
-    type.run = [&videos](JobContext& job) { return run(job, videos); };
+    type.run = [&videos, media_roots](JobContext& job) {
+        return run(job, videos, media_roots);
+    };
     type.ended = [&videos](const schema::Job& job) {
         if (const auto input = input_of_request(job.request))
             videos.files().remove_input(*input);

@@ -8,11 +8,12 @@
 #pragma once
 
 #include "server/app/job_runner.h"
+#include "server/app/media_roots.h"
 #include "server/app/video_service.h"
 
 namespace haarmony::server {
 
 // Requires: `videos` outlives the job.
-[[nodiscard]] JobType video_job(VideoService& videos);
+[[nodiscard]] JobType video_job(VideoService& videos, const MediaRoots& media_roots);
 
 }  // namespace haarmony::server

@@ -13,11 +13,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 5> kOrigins{"raw",
+constexpr std::array<std::string_view, 6> kOrigins{"raw",
                                                    "leaves",
                                                    "clip",
                                                    "generated",
-                                                   "composed"};
+                                                   "composed",
+                                                   "media"};
 
 constexpr std::int32_t kMostDenominator = 1'001;
 
@@ -60,6 +61,7 @@ std::string to_text(const VideoRequest& request) {
                 {"max_frames", request.wishes.max_frames},
                 {"index", request.wishes.index}};
     if (!request.input.empty()) object["input"] = request.input;
+    if (!request.path.empty()) object["path"] = request.path;
     if (request.format.width > 0) {
         object["width"] = request.format.width;
         object["height"] = request.format.height;
@@ -91,6 +93,7 @@ Result<VideoRequest> video_request_of(std::string_view text) {
         object.at("max_frames").get_to(request.wishes.max_frames);
         object.at("index").get_to(request.wishes.index);
         request.input = object.value("input", "");
+        request.path = object.value("path", "");
         if (object.contains("width")) {
             object.at("width").get_to(request.format.width);
             object.at("height").get_to(request.format.height);

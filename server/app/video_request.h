@@ -33,6 +33,7 @@ enum class VideoOrigin {
     kClip,       // input: a .mrv file
     kGenerated,  // by a generator
     kComposed,   // input: the still pictures, if there are any
+    kMedia,      // input, or path: what video_media.h reads
 };
 
 struct VideoRequest {
@@ -43,6 +44,7 @@ struct VideoRequest {
     std::string generator;      // its name
     video::GeneratorParameters parameters;
     CompositionRequest composition;
+    std::string path = {};  // below a media root, as the client named it
 };
 
 [[nodiscard]] std::string to_text(const VideoRequest& request);
