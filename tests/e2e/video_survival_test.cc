@@ -16,13 +16,15 @@ namespace {
 using nlohmann::json;
 
 constexpr int kSide = 128;
-constexpr int kFrames = 40;
+constexpr int kFrames = 16;
 
-// Noise: nothing of it is shared, so that its build takes a while.
+// Noise: nothing of it is shared, so that its build takes a while. No pixel is clear: those
+// have no colour to come back.
 std::string noise() {
     std::mt19937 random(1);
     std::string bytes(std::size_t{4} * kSide * kSide * kFrames, '\0');
-    for (char& byte : bytes) byte = static_cast<char>(random());
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<char>(random() | (i % 4 == 3 ? 1U : 0U));
     return bytes;
 }
 
@@ -75,9 +77,11 @@ TEST(VideoSurvival, ABuildThatWasKilledIsDoneAfterTheNextStart) {
     EXPECT_EQ(files_beside(database),
               std::set<std::string>{job["video"].dump() + "-" +
                                     video["revision"].get<std::string>() + ".mrv"});
-    EXPECT_EQ(
-        curl.get("/video/frame?format=rgba&frame=39&video=" + job["video"].dump()).body,
-        noise().substr(noise().size() - std::size_t{4} * kSide * kSide));
+    const std::string last =
+        curl.get("/video/frame?format=rgba&frame=" + std::to_string(kFrames - 1) +
+                 "&video=" + job["video"].dump())
+            .body;
+    EXPECT_TRUE(last == noise().substr(noise().size() - std::size_t{4} * kSide * kSide));
 }
 
 TEST(VideoSurvival, AVideoThatWasConfirmedOutlivesAKillAndADeletedOneDoesNot) {
