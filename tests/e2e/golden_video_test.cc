@@ -179,7 +179,8 @@ TEST_F(GoldenVideo, AdaptiveLeavesAreTheSameClip) {
 }
 
 TEST_F(GoldenVideo, CompositesWithAllOperatorsAndTheirPreviews) {
-    for (const auto& [name, want] : expected("composite").items()) {
+    const json composite = expected("composite");
+    for (const auto& [name, want] : composite.items()) {
         const auto words = split(name, ' ');
         const json layers{{{"video", clips_[words[2]]}},
                           {{"video", clips_[words[0]]}, {"op", operator_of(words[1])}}};
@@ -204,7 +205,8 @@ TEST_F(GoldenVideo, CompositesWithAllOperatorsAndTheirPreviews) {
 }
 
 TEST_F(GoldenVideo, TranslationsAndScalings) {
-    for (const auto& [name, want] : expected("translate").items()) {
+    const json translate = expected("translate");
+    for (const auto& [name, want] : translate.items()) {
         const auto words = split(name, ' ');
         const json layer{{"video", clips_[words[0]]},
                          {"translate", {number_of(words[1]), number_of(words[2])}},
@@ -214,7 +216,8 @@ TEST_F(GoldenVideo, TranslationsAndScalings) {
                      composed({{"layers", {layer}}}),
                      want.contains("frames") ? want["frames"] : want);
     }
-    for (const auto& [name, want] : expected("scale").items()) {
+    const json scale = expected("scale");
+    for (const auto& [name, want] : scale.items()) {
         const auto words = split(name, ' ');
         const json layer{{"video", clips_[words[0]]},
                          {"scale", {number_of(words[1]), number_of(words[2])}}};
@@ -228,7 +231,8 @@ TEST_F(GoldenVideo, TranslationsAndScalings) {
 
 // The golden pictures are of the whole root square, which a clip shows that is one.
 TEST_F(GoldenVideo, FractionalZooms) {
-    for (const auto& [name, hash] : expected("fzoom").items()) {
+    const json fzoom = expected("fzoom");
+    for (const auto& [name, hash] : fzoom.items()) {
         const auto words = split(name, ' ');
         const json& shape = summary_[words[0]];
         const int side = number_of(words[3]);
