@@ -92,10 +92,6 @@ Reply post_composition(const Context& context, const http::Request& request) {
     const PictureFormat picture = read_picture_format(*inputs, request.header("Accept"));
     const auto background = read_background(*inputs);
     if (!inputs->has("layers")) inputs->refuse(malformed("layers is missing", "layers"));
-    for (const std::string_view side : {"width", "height"})
-        if (inputs->has(side) && (side == "width" ? format.width : format.height) < 1)
-            inputs->refuse(
-                impossible("out_of_range", std::string(side) + " is not above 0", side));
     if (!preview && inputs->has("format"))
         inputs->refuse(malformed("format belongs to preview", "format"));
     if (const auto problem = inputs->refused()) return *problem;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/api/job_json.h"
+#include "server/api/points_json.h"
 #include "server/http/json.h"
 
 namespace haarmony::server {
@@ -22,6 +23,11 @@ constexpr double kFastest = 1'000;
 std::int32_t side(Inputs& inputs, std::string_view name) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
     const auto number = inputs.integer(name, -kMost, kMost).value_or(0);
+    if (number < 1 && inputs.has(name))
+        inputs.refuse(impossible(
+            "out_of_range",
+            std::string(name) + " '" + std::to_string(number) + "' is not above 0",
+            name));
     return static_cast<std::int32_t>(
         std::clamp<std::int64_t>(number,
                                  std::numeric_limits<std::int32_t>::min(),

@@ -1,6 +1,6 @@
 // The options that all ways to make a video take, and the job that makes it.
 //
-// Errors   400, left in the inputs.
+// Errors   400, and 422 for a side below 1, left in the inputs.
 #pragma once
 
 #include <cstddef>

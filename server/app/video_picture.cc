@@ -39,7 +39,7 @@ video::Rgba over(video::Rgba pixel, video::Rgba background) {
 int needed_level(const video::ClipShape& shape, const VideoPicture& picture) {
     const int drawn =
         picture.root_side ? video::zoom_level(shape, *picture.root_side) : picture.level;
-    return std::min(drawn + 1, shape.space_levels());
+    return std::min(std::max(drawn + 1, video::kBrickLevel), shape.space_levels());
 }
 
 video::Picture draw_frame(const video::Frame& frame, const VideoPicture& picture) {

@@ -124,8 +124,15 @@ TEST_F(VideoSearchTest, ImagesAndFramesAreOneListByDistance) {
 
 TEST_F(VideoSearchTest, AProfileOfAnotherKindIsAConflict) {
     upload({1}, "&index=true");
+    ASSERT_EQ(interface_
+                  .send("PUT",
+                        "/profiles/mine",
+                        {{"Content-Type", "application/json"}},
+                        R"({"color_space":"lab"})")
+                  .status,
+              201);
     const http::Response response = interface_.post(
-        "/query?kind=frame&profile=painted_rgb", "image/png", png_text(frame_of(1, 0)));
+        "/query?kind=frame&profile=mine", "image/png", png_text(frame_of(1, 0)));
     EXPECT_EQ(refusal_of(response), (Refusal{409, "conflict", "profile"}));
 }
 

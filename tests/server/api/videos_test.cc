@@ -260,12 +260,14 @@ TEST_F(VideosTest, ARateIsTheFractionThatIsMeant) {
 }
 
 TEST_F(VideosTest, MaxFramesAndDeltaAreObeyed) {
-    const RawClip clip = random_clip(8, 8, 6, 6);
-    const json cut = video(upload(clip, "&max_frames=4"));
-    EXPECT_EQ(cut["frames"], 4);
+    const RawClip clip = random_clip(32, 32, 4, 6);
+    EXPECT_EQ(video(upload(clip, "&max_frames=3"))["frames"], 3);
+    const json exact = video(upload(clip));
     const json lossy = video(upload(clip, "&delta=255"));
+    EXPECT_EQ(lossy["frames"], 4);
     EXPECT_EQ(lossy["delta"], 255.0);
-    EXPECT_LT(lossy["storage"]["own_subtrees"], cut["storage"]["own_subtrees"]);
+    EXPECT_LT(lossy["storage"]["own_subtrees"], exact["storage"]["own_subtrees"]);
+    EXPECT_LT(lossy["storage"]["disk_bytes"], exact["storage"]["disk_bytes"]);
 }
 
 TEST_F(VideosTest, TimeIsTheSameHoweverItIsSaid) {
