@@ -4,40 +4,14 @@
 
 #include "ingest/gallery/noise.h"
 #include "ingest/gallery/painters.h"
-#include "ingest/gallery/sky.h"
+#include "ingest/gallery/scene.h"
 #include "ingest/gallery/staffage.h"
 #include "ingest/gallery/terrain.h"
 
 namespace haarmony::gallery {
 namespace {
 
-// One scene in the making: what its steps share.
-struct Scene {
-    Canvas& canvas;
-    Random& random;
-    double hue;
-    Sky sky;
-    double horizon;
-};
-
-Scene begin(Canvas& canvas,
-            Commission& commission,
-            std::initializer_list<Hour> hours,
-            double low,
-            double high) {
-    Random& random = commission.random;
-    const std::vector<Hour> choices(hours);
-    const Hour hour =
-        choices[static_cast<std::size_t>(commission.turn / 8) % choices.size()];
-    const double horizon = random.between(low, high);
-    Scene scene{canvas,
-                random,
-                commission.hue,
-                make_sky(random, hour, canvas.aspect(), horizon),
-                horizon};
-    paint_sky(canvas, scene.sky, horizon, random);
-    return scene;
-}
+constexpr int kScenes = 8;  // that take turns
 
 // Down to `floor`, below which something nearer hides them.
 void ranges(Scene& s,
@@ -80,11 +54,12 @@ void conifers_along(Scene& s, double y, double size, int count, double snow) {
 }
 
 Label mountain_lake(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kMorning, Hour::kGoldenHour, Hour::kNoon, Hour::kDusk},
-                    0.54,
-                    0.66);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kMorning, Hour::kGoldenHour, Hour::kNoon, Hour::kDusk},
+                          0.54,
+                          0.66);
     const double height = s.random.between(0.3, 0.44);
     ranges(s, 3, s.horizon, height, 1, s.random.between(0.3, 0.75), s.horizon + 0.05);
     conifers_along(s, s.horizon + 0.012, 0.07, 90, 0);
@@ -116,11 +91,12 @@ Label mountain_lake(Canvas& canvas, Commission& commission) {
 }
 
 Label meadow(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kNoon, Hour::kGoldenHour, Hour::kMorning, Hour::kStorm},
-                    0.46,
-                    0.6);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kNoon, Hour::kGoldenHour, Hour::kMorning, Hour::kStorm},
+                          0.46,
+                          0.6);
     ranges(s, 2, s.horizon, 0.16, 0.4, 0, s.horizon + 0.15);
     const double green = s.random.between(kLime - 0.02, kGreen + 0.02);
     for (int i = 0; i < 3; ++i) {
@@ -168,11 +144,12 @@ Label meadow(Canvas& canvas, Commission& commission) {
 }
 
 Label desert(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kGoldenHour, Hour::kNoon, Hour::kSunset, Hour::kNight},
-                    0.36,
-                    0.56);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kGoldenHour, Hour::kNoon, Hour::kSunset, Hour::kNight},
+                          0.36,
+                          0.56);
     ranges(s, 1, s.horizon + 0.02, 0.12, 0.7, 0, s.horizon + 0.1);
     const Color sand =
         oklch({s.random.between(0.66, 0.84), 0.13, s.random.between(0.11, 0.22)});
@@ -195,11 +172,12 @@ Label desert(Canvas& canvas, Commission& commission) {
 }
 
 Label flower_rows(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kGoldenHour},
-                    0.34,
-                    0.52);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kGoldenHour},
+                          0.34,
+                          0.52);
     ranges(s, 1, s.horizon + 0.01, 0.1, 0.3, 0, s.horizon + 0.02);
     const bool lavender = s.random.chance(0.3);
     std::vector<Color> colors;
@@ -231,11 +209,12 @@ Label flower_rows(Canvas& canvas, Commission& commission) {
 }
 
 Label winter(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kNight, Hour::kMorning, Hour::kNoon, Hour::kSunset},
-                    0.5,
-                    0.64);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kNight, Hour::kMorning, Hour::kNoon, Hour::kSunset},
+                          0.5,
+                          0.64);
     ranges(s, 3, s.horizon, s.random.between(0.24, 0.4), 1, 1, s.horizon + 0.2);
     const Color snow{0.86, 0.9, 1.0};
     conifers_along(s, s.horizon + 0.05, 0.1, 70, 0.25);
@@ -267,11 +246,12 @@ Label winter(Canvas& canvas, Commission& commission) {
 }
 
 Label autumn(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kGoldenHour, Hour::kNoon, Hour::kStorm, Hour::kMorning},
-                    0.42,
-                    0.56);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kGoldenHour, Hour::kNoon, Hour::kStorm, Hour::kMorning},
+                          0.42,
+                          0.56);
     ranges(s, 2, s.horizon, 0.2, 0.5, 0, 1);
     static constexpr double kLeaves[] = {kRed, 0.1, kOrange, kGold, kGold, kYellow};
     for (int row = 0; row < 3; ++row) {
@@ -306,11 +286,12 @@ Label autumn(Canvas& canvas, Commission& commission) {
 }
 
 Label misty_ridges(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kSunset, Hour::kMorning, Hour::kDusk, Hour::kGoldenHour},
-                    0.5,
-                    0.66);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kSunset, Hour::kMorning, Hour::kDusk, Hour::kGoldenHour},
+                          0.5,
+                          0.66);
     constexpr int kLayers = 7;
     const Color near = oklch(0.2, 0.08, s.hue);
     for (int i = 0; i < kLayers; ++i) {
@@ -346,11 +327,12 @@ Label misty_ridges(Canvas& canvas, Commission& commission) {
 }
 
 Label balloons(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
-                    commission,
-                    {Hour::kMorning, Hour::kNoon, Hour::kSunset, Hour::kGoldenHour},
-                    0.7,
-                    0.82);
+    Scene s = begin_scene(canvas,
+                          commission,
+                          kScenes,
+                          {Hour::kMorning, Hour::kNoon, Hour::kSunset, Hour::kGoldenHour},
+                          0.7,
+                          0.82);
     ranges(s, 3, s.horizon, 0.2, s.random.between(0.2, 1), 0.1, 1);
     paint_hill(canvas,
                s.sky,

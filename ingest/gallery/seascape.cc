@@ -6,39 +6,14 @@
 #include "ingest/gallery/noise.h"
 #include "ingest/gallery/painters.h"
 #include "ingest/gallery/reef.h"
-#include "ingest/gallery/sky.h"
+#include "ingest/gallery/scene.h"
 #include "ingest/gallery/staffage.h"
 #include "ingest/gallery/terrain.h"
 
 namespace haarmony::gallery {
 namespace {
 
-struct Scene {
-    Canvas& canvas;
-    Random& random;
-    double hue;
-    Sky sky;
-    double horizon;
-};
-
-Scene begin(Canvas& canvas,
-            Commission& commission,
-            std::initializer_list<Hour> hours,
-            double low,
-            double high) {
-    Random& random = commission.random;
-    const std::vector<Hour> choices(hours);
-    const Hour hour =
-        choices[static_cast<std::size_t>(commission.turn / 6) % choices.size()];
-    const double horizon = random.between(low, high);
-    Scene scene{canvas,
-                random,
-                commission.hue,
-                make_sky(random, hour, canvas.aspect(), horizon),
-                horizon};
-    paint_sky(canvas, scene.sky, horizon, random);
-    return scene;
-}
+constexpr int kScenes = 6;  // that take turns
 
 // Open water from the horizon down: waves in perspective that mirror the sky's ramp, the
 // glitter of the sun, foam on the crests when it is rough (0 calm .. 1 gale).
@@ -81,9 +56,10 @@ void open_sea(Scene& s, const Color& deep, const Color& shallow, double rough) {
 }
 
 Label sailing(Canvas& canvas, Commission& commission) {
-    Scene s = begin(
+    Scene s = begin_scene(
         canvas,
         commission,
+        kScenes,
         {Hour::kSunset, Hour::kNoon, Hour::kMorning, Hour::kGoldenHour, Hour::kDusk},
         0.4,
         0.62);
@@ -109,8 +85,10 @@ Label sailing(Canvas& canvas, Commission& commission) {
 }
 
 Label lighthouse(Canvas& canvas, Commission& commission) {
-    Scene s = begin(canvas,
+    Scene s =
+        begin_scene(canvas,
                     commission,
+                    kScenes,
                     {Hour::kDusk, Hour::kStorm, Hour::kNoon, Hour::kSunset, Hour::kNight},
                     0.5,
                     0.64);
@@ -162,9 +140,10 @@ Label lighthouse(Canvas& canvas, Commission& commission) {
 }
 
 Label beach(Canvas& canvas, Commission& commission) {
-    Scene s = begin(
+    Scene s = begin_scene(
         canvas,
         commission,
+        kScenes,
         {Hour::kNoon, Hour::kSunset, Hour::kMorning, Hour::kNoon, Hour::kGoldenHour},
         0.36,
         0.5);
@@ -293,9 +272,10 @@ Label woodcut(Canvas& canvas, Commission& commission) {
 }
 
 Label islands(Canvas& canvas, Commission& commission) {
-    Scene s = begin(
+    Scene s = begin_scene(
         canvas,
         commission,
+        kScenes,
         {Hour::kGoldenHour, Hour::kMorning, Hour::kNight, Hour::kSunset, Hour::kNoon},
         0.48,
         0.6);

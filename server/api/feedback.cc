@@ -1,6 +1,5 @@
 #include "server/api/feedback.h"
 
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "server/api/image_id.h"
 #include "server/api/inputs.h"
+#include "server/api/list_page.h"
 #include "server/api/profile_json.h"
 #include "server/api/training_pair_json.h"
 #include "server/http/json.h"
@@ -20,7 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMaxListed = 1000;
 constexpr int kExportPage = 100;  // pairs of strokes may be long
 
 std::optional<std::string> read_kind(Inputs& inputs) {
@@ -84,27 +83,14 @@ Reply post_feedback(const Context& context, const http::Request& request) {
 Reply list_feedback(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_query(request);
     if (!inputs) return inputs.problem();
-    const auto limit =
-        static_cast<std::size_t>(inputs->integer("limit", 1, kMaxListed).value_or(100));
-    const auto cursor =
-        inputs->integer("cursor", 1, std::numeric_limits<std::int64_t>::max());
+    const ListPlace place = ListPlace::read(*inputs);
     const auto kind = read_kind(*inputs);
     if (const auto problem = inputs->refused()) return *problem;
 
-    // One more than asked for tells whether there is a next page.
-    const auto page = context.images.feedback(kind, cursor, static_cast<int>(limit) + 1);
+    const auto page = context.images.feedback(kind, place.cursor, place.fetched());
     if (!page) return page.error();
-    json items = json::array();
-    json next_cursor;
-    for (const schema::Feedback& feedback : page.value()) {
-        if (items.size() == limit) {
-            next_cursor = std::to_string(items.back()["id"].get<std::int64_t>());
-            break;
-        }
-        items.push_back(feedback_json(feedback));
-    }
-    http::Response response = http::json_response(
-        200, {{"items", std::move(items)}, {"next_cursor", std::move(next_cursor)}});
+    http::Response response =
+        http::json_response(200, list_page(*page, place, feedback_json));
     response.headers["Cache-Control"] = "no-store";
     return response;
 }

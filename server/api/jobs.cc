@@ -1,7 +1,6 @@
 #include "server/api/jobs.h"
 
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "server/api/inputs.h"
 #include "server/api/job_json.h"
 #include "server/api/job_request.h"
+#include "server/api/list_page.h"
 #include "server/http/json.h"
 
 namespace haarmony::server {
@@ -19,9 +19,6 @@ namespace {
 
 using nlohmann::json;
 using schema::JobState;
-
-constexpr int kMaxListed = 1000;
-constexpr int kListed = 100;
 
 http::Response fresh(int status, const json& body) {
     http::Response response = http::json_response(status, body);
@@ -98,24 +95,13 @@ Reply post_job(const Context& context, const http::Request& request) {
 Reply list_jobs(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_query(request);
     if (!inputs) return inputs.problem();
-    const auto limit = inputs->integer("limit", 1, kMaxListed).value_or(kListed);
-    const auto cursor =
-        inputs->integer("cursor", 1, std::numeric_limits<std::int64_t>::max());
+    const ListPlace place = ListPlace::read(*inputs);
     if (const auto problem = inputs->refused()) return *problem;
-    // One more than asked for tells whether there is a next page.
-    const auto jobs = context.jobs.list(static_cast<int>(limit) + 1, cursor);
+    const auto jobs = context.jobs.list(place.fetched(), place.cursor);
     if (!jobs) return jobs.error();
-    json items = json::array();
-    json next_cursor;
-    for (const schema::Job& job : jobs.value()) {
-        if (items.size() == static_cast<std::size_t>(limit)) {
-            next_cursor = std::to_string(items.back()["id"].get<std::int64_t>());
-            break;
-        }
-        items.push_back(job_json(job, context.jobs));
-    }
-    return fresh(200,
-                 {{"items", std::move(items)}, {"next_cursor", std::move(next_cursor)}});
+    return fresh(200, list_page(*jobs, place, [&](const schema::Job& job) {
+                     return job_json(job, context.jobs);
+                 }));
 }
 
 Reply get_job(const Context& context, const http::Request& request) {

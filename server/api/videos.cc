@@ -1,6 +1,5 @@
 #include "server/api/videos.h"
 
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -8,14 +7,12 @@
 #include "server/api/image_id.h"
 #include "server/api/inputs.h"
 #include "server/api/json_text.h"
+#include "server/api/list_page.h"
 #include "server/api/video_json.h"
 #include "server/http/json.h"
 
 namespace haarmony::server {
 namespace {
-
-constexpr std::int64_t kMaxListed = 1'000;
-constexpr std::int64_t kListed = 100;
 
 http::Response tagged(std::string text) {
     http::Response response = http::json_text_response(200, std::move(text));
@@ -29,18 +26,14 @@ http::Response tagged(std::string text) {
 Reply list_videos(const Context& context, const http::Request& request) {
     auto inputs = Inputs::of_query(request);
     if (!inputs) return inputs.problem();
-    const auto limit = inputs->integer("limit", 1, kMaxListed).value_or(kListed);
-    const auto cursor =
-        inputs->integer("cursor", 1, std::numeric_limits<std::int64_t>::max());
+    const ListPlace place = ListPlace::read(*inputs);
     if (const auto problem = inputs->refused()) return *problem;
-    // One more than asked for tells whether there is a next page.
-    const auto videos =
-        context.videos.list(static_cast<int>(limit) + 1, cursor.value_or(0));
+    const auto videos = context.videos.list(place.fetched(), place.cursor.value_or(0));
     if (!videos) return videos.error();
     std::string items = "[";
     std::string next_cursor;
     for (std::size_t i = 0; i < videos->size(); ++i) {
-        if (i == static_cast<std::size_t>(limit)) {
+        if (i == static_cast<std::size_t>(place.limit)) {
             next_cursor = std::to_string((*videos)[i - 1].id);
             break;
         }

@@ -1,14 +1,12 @@
 #include "server/app/curve_service.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <iterator>
 #include <span>
 #include <utility>
 
 #include "engine/curve/built_in_character.h"
-#include "server/app/log_value.h"
+#include "server/app/logged.h"
 
 namespace haarmony::server {
 namespace {
@@ -17,15 +15,6 @@ using schema::CurveKind;
 
 // Details that turn with the stroke: a word written aslant is the same word.
 constexpr curve::Frame kStrokeFrame = curve::Frame::kNormalized;
-
-// What the client only sees as "the server could not answer".
-template <typename Answer>
-Answer logged(Answer answer) {
-    if (!answer && answer.error().code == ErrorCode::kIo)
-        spdlog::error("event=database_failed reason={}",
-                      log_value(answer.error().message));
-    return answer;
-}
 
 Error built_in_error(std::string_view name) {
     return {ErrorCode::kConflict,

@@ -10,18 +10,10 @@
 #include "ingest/stored_profile.h"
 #include "ingest/variant.h"
 #include "server/app/log_value.h"
+#include "server/app/logged.h"
 
 namespace haarmony::server {
 namespace {
-
-// What the client only sees as "the server could not answer".
-template <typename Answer>
-Answer logged(Answer answer) {
-    if (!answer && answer.error().code == ErrorCode::kIo)
-        spdlog::error("event=database_failed reason={}",
-                      log_value(answer.error().message));
-    return answer;
-}
 
 Error built_in(std::string_view name) {
     return {ErrorCode::kConflict,

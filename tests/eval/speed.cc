@@ -30,13 +30,6 @@ constexpr std::size_t kApplied = 16384;  // records in one call of apply()
 constexpr int kBandwidthPasses = 5;
 constexpr int kBruteForceQueries = 20;
 
-struct Case {
-    int m = 0;
-    std::string_view profile;
-};
-constexpr std::array kCases = {Case{20, "scanned"},
-                               Case{40, "scanned"},
-                               Case{60, "painted"}};
 constexpr std::array kRules = {image::BinRule::kLiteral,
                                image::BinRule::kLog2Plus1,
                                image::BinRule::kLinear};
@@ -49,7 +42,7 @@ void measure_popularity(const SmallPhotos& photos,
     executor.parallel_for(of_photos.size(), [&](std::size_t i) {
         of_photos[i] = pack(image::make_signature(photos.pictures[i].view()));
     });
-    for (const Case& c : kCases) {
+    for (const SpeedCase& c : kSpeedCases) {
         report.photos.push_back(ListLengths(of_photos, c.m).read_by(of_photos));
         const ListLengths lengths(collection.signatures, c.m);
         for (const SyntheticKind kind : kSyntheticKinds) {
@@ -86,9 +79,9 @@ class Measurement {
             std::span(collection_.signatures).first(static_cast<std::size_t>(images));
         progress_(std::to_string(images) + " pictures: the index");
         build_index();
-        for (const Case& c : kCases) measure_case(c);
+        for (const SpeedCase& c : kSpeedCases) measure_case(c);
         progress_(std::to_string(images) + " pictures: cores");
-        measure_cores_of(kCases[1]);
+        measure_cores_of(kSpeedCases[1]);
         index_.reset();
         snapshot_.reset();
         progress_(std::to_string(images) + " pictures: brute force");
@@ -105,15 +98,15 @@ class Measurement {
     };
 
     void build_index();
-    void measure_case(const Case& c);
+    void measure_case(const SpeedCase& c);
     void measure_scan(const Asked& asked);
-    Asked measure_row(const Case& c,
+    Asked measure_row(const SpeedCase& c,
                       image::BinRule rule,
                       std::size_t kind,
                       PlainSearch& plain);
     void check(const std::vector<Asked>& asked);
     void check_oracle(const Asked& asked, std::span<const image::Match> first);
-    void measure_cores_of(const Case& c);
+    void measure_cores_of(const SpeedCase& c);
     void measure_brute_force();
 
     std::size_t queries_;
@@ -152,7 +145,7 @@ void Measurement::build_index() {
          {}});
 }
 
-void Measurement::measure_case(const Case& c) {
+void Measurement::measure_case(const SpeedCase& c) {
     progress_(std::to_string(images_) + " pictures: m = " + std::to_string(c.m));
     std::vector<Asked> asked;
     {
@@ -167,7 +160,7 @@ void Measurement::measure_case(const Case& c) {
     check(asked);
 }
 
-Measurement::Asked Measurement::measure_row(const Case& c,
+Measurement::Asked Measurement::measure_row(const SpeedCase& c,
                                             image::BinRule rule,
                                             std::size_t kind,
                                             PlainSearch& plain) {
@@ -222,7 +215,7 @@ void Measurement::measure_scan(const Asked& asked) {
     }
 }
 
-void Measurement::measure_cores_of(const Case& c) {
+void Measurement::measure_cores_of(const SpeedCase& c) {
     const image::Profile profile = *image::built_in_profile(c.profile);
     std::vector<image::Query> queries;
     const auto& near = collection_.queries[std::size_t(SyntheticKind::kNear)];

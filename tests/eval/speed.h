@@ -11,11 +11,13 @@
 // Source  sec. 4.5.5, Table 4.2.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,15 @@
 namespace haarmony::eval {
 
 inline constexpr int kSpeedMatches = 20;  // one screen
+
+// What is asked of every collection: so many coefficients, weighed by a built-in profile.
+struct SpeedCase {
+    int m = 0;
+    std::string_view profile;
+};
+inline constexpr std::array kSpeedCases = {SpeedCase{20, "scanned"},
+                                           SpeedCase{40, "scanned"},
+                                           SpeedCase{60, "painted"}};
 
 // The most queries of each kind, and so many a cache holds. Near queries and sketches are of
 // the first pictures, so that a collection has no fewer.

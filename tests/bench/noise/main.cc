@@ -30,14 +30,6 @@ struct Options {
     int threads = 2;
 };
 
-struct Case {
-    int m = 0;
-    std::string_view profile;
-};
-constexpr std::array kCases = {Case{20, "scanned"},
-                               Case{40, "scanned"},
-                               Case{60, "painted"}};
-
 std::vector<eval::PackedSignature> make_signatures(const Options& options,
                                                    Executor& executor) {
     std::vector<eval::PackedSignature> signatures(std::size_t(options.images));
@@ -66,7 +58,7 @@ std::unique_ptr<image::Index> make_index(
 }
 
 // Returns how many answers were wrong.
-std::int64_t measure(const Case& c,
+std::int64_t measure(const eval::SpeedCase& c,
                      std::span<const eval::PackedSignature> signatures,
                      const image::IndexSnapshot& snapshot,
                      const Options& options,
@@ -132,7 +124,7 @@ int main(int argc, char** argv) {
     std::puts("| name | plain, ms | index, ms | ratio | deviation | pictures compared |");
     std::puts("|---|---|---|---|---|---|");
     std::int64_t wrong = 0;
-    for (const Case& c : kCases)
+    for (const eval::SpeedCase& c : eval::kSpeedCases)
         wrong += measure(c, signatures, *snapshot, options, executor);
     if (wrong == 0) return 0;
     std::fprintf(stderr,

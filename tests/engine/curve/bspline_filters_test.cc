@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/engine/curve/dense_spline.h"
+#include "tests/engine/curve/gauss.h"
 
 namespace haarmony::curve {
 namespace {
@@ -33,26 +34,19 @@ Points units(std::size_t count, std::size_t first) {
 
 // <Phi^j | Phi^j> by Gauss quadrature, exact on each segment: the products have degree 6.
 Matrix inner_products(int level, Ends ends) {
-    constexpr double kAt[] = {-0.86113631159405257522,
-                              -0.33998104358485626480,
-                              0.33998104358485626480,
-                              0.86113631159405257522};
-    constexpr double kWeight[] = {0.34785484513745385737,
-                                  0.65214515486254614263,
-                                  0.65214515486254614263,
-                                  0.34785484513745385737};
     const std::size_t count = control_count(level, ends);
     const double segments = std::ldexp(1, level);
     Matrix products(count, std::vector<double>(count));
     std::vector<double> values(count);
     for (double segment = 0; segment < segments; ++segment) {
         for (std::size_t k = 0; k < 4; ++k) {
-            const double u = (segment + 0.5 + 0.5 * kAt[k]) / segments;
+            const double u = (segment + 0.5 + 0.5 * kGaussPlace[k]) / segments;
             for (std::size_t i = 0; i < count; ++i)
                 values[i] = dense::basis(level, ends, i, u);
             for (std::size_t i = 0; i < count; ++i)
                 for (std::size_t l = 0; l < count; ++l)
-                    products[i][l] += kWeight[k] / (2 * segments) * values[i] * values[l];
+                    products[i][l] +=
+                        kGaussWeight[k] / (2 * segments) * values[i] * values[l];
         }
     }
     return products;

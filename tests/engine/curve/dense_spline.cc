@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "tests/engine/curve/gauss.h"
+
 namespace haarmony::curve::dense {
 namespace {
 
@@ -48,25 +50,17 @@ double cardinal(double x) {
 
 // <Phi^rows | Phi^columns>, exact: Gauss with 4 points on segments where both are cubic.
 Matrix make_inner_products(int rows, int columns, Ends ends) {
-    constexpr std::array<double, 4> kAt = {-0.86113631159405257522,
-                                           -0.33998104358485626480,
-                                           0.33998104358485626480,
-                                           0.86113631159405257522};
-    constexpr std::array<double, 4> kWeight = {0.34785484513745385737,
-                                               0.65214515486254614263,
-                                               0.65214515486254614263,
-                                               0.34785484513745385737};
     Matrix products(points_of(rows, ends), std::vector<double>(points_of(columns, ends)));
     const double segments = std::ldexp(1, std::max(rows, columns));
     for (double segment = 0; segment < segments; ++segment) {
-        for (std::size_t k = 0; k < kAt.size(); ++k) {
-            const double u = (segment + 0.5 + 0.5 * kAt[k]) / segments;
+        for (std::size_t k = 0; k < kGaussPlace.size(); ++k) {
+            const double u = (segment + 0.5 + 0.5 * kGaussPlace[k]) / segments;
             for (std::size_t i = 0; i < products.size(); ++i) {
                 const double left = basis(rows, ends, i, u);
                 if (left == 0) continue;
                 for (std::size_t j = 0; j < products[i].size(); ++j) {
-                    products[i][j] +=
-                        kWeight[k] / (2 * segments) * left * basis(columns, ends, j, u);
+                    products[i][j] += kGaussWeight[k] / (2 * segments) * left *
+                                      basis(columns, ends, j, u);
                 }
             }
         }

@@ -64,6 +64,15 @@ std::vector<double> bernstein_sum(const Points& rows, std::size_t first, double 
     return sum;
 }
 
+Points rows_of(const PlaneCubic& cubic) {
+    Points rows(4, 2);
+    for (std::size_t i = 0; i < 4; ++i) {
+        rows[i][0] = cubic[i].x;
+        rows[i][1] = cubic[i].y;
+    }
+    return rows;
+}
+
 Points four_rows_each(const Points& chain) {
     const std::size_t pieces = chain.size() / 3;
     Points rows(4 * pieces, chain.dimension());

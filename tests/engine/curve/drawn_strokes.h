@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/curve/level.h"
+#include "engine/curve/plane_cubic.h"
 #include "engine/curve/points.h"
 
 namespace haarmony::curve {
@@ -26,6 +27,9 @@ struct Stroke {
 [[nodiscard]] std::vector<double> bernstein_sum(const Points& rows,
                                                 std::size_t first,
                                                 double t);
+
+// The four points of a cubic as rows.
+[[nodiscard]] Points rows_of(const PlaneCubic& cubic);
 
 // Rows of four a segment, of 3k + 1 rows that neighbours share.
 [[nodiscard]] Points four_rows_each(const Points& chain);

@@ -8,6 +8,7 @@
 
 #include "engine/curve/bspline_filters.h"
 #include "tests/engine/curve/dense_spline.h"
+#include "tests/engine/curve/gauss.h"
 
 namespace haarmony::curve {
 namespace {
@@ -38,14 +39,6 @@ Points reversed(const Points& points) {
 // The least squares projection to a coarser level by its definition: basis functions by
 // recursion, inner products by Gauss quadrature on the finer segments, elimination.
 Points projected(const Points& control, Ends ends, int fine, int coarse) {
-    constexpr double kAt[] = {-0.86113631159405257522,
-                              -0.33998104358485626480,
-                              0.33998104358485626480,
-                              0.86113631159405257522};
-    constexpr double kWeight[] = {0.34785484513745385737,
-                                  0.65214515486254614263,
-                                  0.65214515486254614263,
-                                  0.34785484513745385737};
     const std::size_t points = control_count(coarse, ends);
     const auto dimension = std::size_t(control.dimension());
     // <Phi | Phi> and, beside it, <Phi | f>.
@@ -69,8 +62,8 @@ Points projected(const Points& control, Ends ends, int fine, int coarse) {
     };
     for (std::size_t s = 0; s < segments; ++s) {
         for (std::size_t k = 0; k < 4; ++k) {
-            const double u = (double(s) + 0.5 + 0.5 * kAt[k]) / double(segments);
-            const double weight = kWeight[k] / (2 * double(segments));
+            const double u = (double(s) + 0.5 + 0.5 * kGaussPlace[k]) / double(segments);
+            const double weight = kGaussWeight[k] / (2 * double(segments));
             const std::vector<Value> coarse_values = values_at(coarse, u);
             std::vector<double> at(dimension);
             for (const Value& value : values_at(fine, u))

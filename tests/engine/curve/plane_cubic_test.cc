@@ -7,15 +7,6 @@
 namespace haarmony::curve {
 namespace {
 
-Points rows_of(const PlaneCubic& cubic) {
-    Points rows(4, 2);
-    for (std::size_t i = 0; i < 4; ++i) {
-        rows[i][0] = cubic[i].x;
-        rows[i][1] = cubic[i].y;
-    }
-    return rows;
-}
-
 constexpr PlaneCubic kArch = {PlaneVector{0, 0}, {10, 40}, {50, 30}, {60, -5}};
 
 TEST(PlaneCubic, PowersOfTAndBernsteinPolynomialsAreTheSameCurve) {

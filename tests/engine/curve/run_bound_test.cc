@@ -11,15 +11,6 @@
 namespace haarmony::curve {
 namespace {
 
-Points rows_of(const PlaneCubic& cubic) {
-    Points rows(4, 2);
-    for (std::size_t i = 0; i < 4; ++i) {
-        rows[i][0] = cubic[i].x;
-        rows[i][1] = cubic[i].y;
-    }
-    return rows;
-}
-
 Points run_of(const Points& bezier, std::size_t first, std::size_t last) {
     Points rows(3 * (last - first) + 1, bezier.dimension());
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -1,6 +1,8 @@
 // A spool in memory that fails or lies when it is told to.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <string>
 
@@ -47,5 +49,21 @@ class FaultySpool final : public Spool {
     std::int64_t calls_ = 0;
     std::int64_t appends_ = 0;
 };
+
+// Makes each of the calls fail that `run` makes of a spool, one after the other: `run` must
+// answer with that failure. Run: Result<void>(FaultySpool&).
+template <typename Run>
+void expect_failures_passed_on(std::int64_t calls, const Run& run) {
+    FaultySpool sound;
+    ASSERT_TRUE(run(sound).has_value());
+    ASSERT_EQ(sound.calls(), calls);
+    for (std::int64_t call = 0; call < calls; ++call) {
+        FaultySpool faulty;
+        faulty.fail_at(call);
+        const Result<void> result = run(faulty);
+        ASSERT_FALSE(result.has_value()) << call;
+        EXPECT_EQ(result.error().message, "call " + std::to_string(call));
+    }
+}
 
 }  // namespace haarmony::video::testing
