@@ -71,9 +71,9 @@ class PartSearch {
     // none, or once it has been visited.
     [[nodiscard]] std::span<const Score> bounds() const { return bounds_; }
 
-    void visit_first(int block, TopK& top, WorstKept& worst, SearchEffort& effort) {
+    void visit_first(int block, BestKept& best, SearchEffort& effort) {
         bounds_[std::size_t(block)] = kNever;
-        Visitor visitor(search_, top, worst);
+        Visitor visitor(search_, best);
         constexpr bool kDue = true;
         visitor.visit(block, {&kDue, 1}, {});
         visitor.finish();
@@ -81,12 +81,12 @@ class PartSearch {
     }
 
     // All blocks that were not visited first and may hold a match, some neighbours at a time.
-    void visit_rest(TopK& top, WorstKept& worst, bool exhaustive, SearchEffort& effort) {
-        Visitor visitor(search_, top, worst);
-        Run run = next_run(0, worst, exhaustive);
+    void visit_rest(BestKept& best, bool exhaustive, SearchEffort& effort) {
+        Visitor visitor(search_, best);
+        Run run = next_run(0, best, exhaustive);
         while (run.blocks.count > 0) {
             const Run ahead =
-                next_run(run.blocks.first + run.blocks.count, worst, exhaustive);
+                next_run(run.blocks.first + run.blocks.count, best, exhaustive);
             visitor.visit(run.blocks.first,
                           std::span(run.due).first(std::size_t(run.blocks.count)),
                           ahead.blocks);
@@ -111,10 +111,10 @@ class PartSearch {
         std::array<bool, kBlocksAtOnce> due{};
     };
     // The next from `block` on; none where its count is 0.
-    [[nodiscard]] Run next_run(int block, const WorstKept& worst, bool exhaustive) const {
+    [[nodiscard]] Run next_run(int block, const BestKept& best, bool exhaustive) const {
         const auto is_due = [&](int b) {
             const Score bound = bounds_[std::size_t(b)];
-            return bound != kNever && (exhaustive || bound <= worst.get());
+            return bound != kNever && (exhaustive || bound <= best.worst());
         };
         Run run;
         while (block < search_.blocks() && !is_due(block)) ++block;
@@ -201,29 +201,22 @@ SearchResult search(const Collection& collection,
     for (const auto& part : parts) result.searched += part->live();
     if (scope.limit == 0) return result;
 
-    TopK top(scope.limit);
-    WorstKept worst;
-    for (const Match& match : newest) top.offer(match);
-    if (top.full()) worst.lower_to(top.worst());
+    BestKept best(scope.limit);
+    for (const Match& match : newest) best.offer(match);
     if (!scope.exhaustive) {
-        Promises promises(parts, worst.get());
+        Promises promises(parts, best.worst());
         for (std::size_t i = 0; i < kFirstBlocks; ++i) {
-            const std::optional<Promise> best = promises.next();
-            if (!best || best->bound > worst.get()) break;
-            parts[best->part]->visit_first(best->block, top, worst, result.effort);
+            const std::optional<Promise> promise = promises.next();
+            if (!promise || promise->bound > best.worst()) break;
+            parts[promise->part]->visit_first(promise->block, best, result.effort);
         }
     }
     std::vector<SearchEffort> efforts(parts.size());
-    std::vector<TopK> tops(parts.size(), TopK(scope.limit));
     run(scope.executor, parts.size(), [&](std::size_t p) {
-        TopK& of_part = scope.executor == nullptr ? top : tops[p];
-        parts[p]->visit_rest(of_part, worst, scope.exhaustive, efforts[p]);
+        parts[p]->visit_rest(best, scope.exhaustive, efforts[p]);
     });
     for (const SearchEffort& effort : efforts) result.effort += effort;
-    for (TopK& of_part : tops) {
-        for (const Match& match : of_part.take()) top.offer(match);
-    }
-    result.matches = top.take();
+    result.matches = best.take();
     return result;
 }
 

@@ -191,14 +191,14 @@ void SegmentSearch::score_all(std::vector<Match>& out) const {
     }
 }
 
-Visitor::Visitor(const SegmentSearch& search, TopK& top, WorstKept& worst)
-    : search_(search), top_(top), worst_(worst) {}
+Visitor::Visitor(const SegmentSearch& search, BestKept& best)
+    : search_(search), best_(best) {}
 
 // The fewest units with which a picture of the block can be not worse than what is kept; ties
 // are not worse.
 std::uint32_t Visitor::units_needed(int block) const {
-    const Score worst = worst_.get();
-    if (worst == WorstKept::kAny) return 0;
+    const Score worst = best_.worst();
+    if (worst == BestKept::kAny) return 0;
     const Score averages = search_.lowest_terms_of_averages(std::size_t(block));
     // Rounded up: the shift of a negative number rounds down.
     const std::int64_t needed =
@@ -300,7 +300,7 @@ void Visitor::judge_reached() {
         const Score averages = search_.terms_of_averages(reached.slot);
         const Score bound =
             averages - search_.rounding_->weight(reached.units) * kAverageOne;
-        if (bound > worst_.get()) continue;
+        if (bound > best_.worst()) continue;
         candidates_.push_back({bound, averages, reached.slot});
         constexpr std::size_t kPerLine = 32;
         const std::size_t end = view.own_begin[reached.slot + 1];
@@ -320,7 +320,7 @@ void Visitor::compare_candidates() {
         std::ranges::nth_element(candidates_, sorted_end, {}, &Candidate::bound);
     std::ranges::sort(candidates_.begin(), sorted_end, {}, &Candidate::bound);
     for (const Candidate& candidate : candidates_) {
-        if (candidate.bound <= worst_.get()) compare(candidate);
+        if (candidate.bound <= best_.worst()) compare(candidate);
     }
     candidates_.clear();
 }
@@ -329,9 +329,8 @@ void Visitor::compare(const Candidate& candidate) {
     ++effort_.compared;
     const Score score =
         candidate.averages - search_.matches(candidate.slot) * kAverageOne;
-    if (!top_.admits(score)) return;
-    top_.offer({ImageId{search_.view_->ids[candidate.slot]}, score});
-    if (top_.full()) worst_.lower_to(top_.worst());
+    if (score <= best_.worst())
+        best_.offer({ImageId{search_.view_->ids[candidate.slot]}, score});
 }
 
 }  // namespace haarmony::image

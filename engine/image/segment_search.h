@@ -1,6 +1,6 @@
 // The search of one segment, block by block, exactly and without looking at what cannot be
 // among the best.
-//   segment_layout.h, bit_sums.h -> [segment_search.h] -> collection.h
+//   segment_layout.h, bit_sums.h, best_kept.h -> [segment_search.h] -> collection.h
 //
 // The weights that a picture can match are bounded from above: for a whole block by which of
 // the lists any picture of the block is in (at once), or by the largest sum that any picture
@@ -15,37 +15,18 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "engine/image/best_kept.h"
 #include "engine/image/bit_sums.h"
 #include "engine/image/query.h"
 #include "engine/image/rounding.h"
 #include "engine/image/segment_layout.h"
 #include "engine/image/term_weights.h"
-#include "engine/image/top_k.h"
 
 namespace haarmony::image {
-
-// The worst score that is still of interest, shared by all who search for one query.
-class WorstKept {
-  public:
-    static constexpr Score kAny = std::numeric_limits<Score>::max();
-
-    [[nodiscard]] Score get() const { return score_.load(std::memory_order_relaxed); }
-    void lower_to(Score score) {
-        Score now = get();
-        while (score < now &&
-               !score_.compare_exchange_weak(now, score, std::memory_order_relaxed)) {
-        }
-    }
-
-  private:
-    std::atomic<Score> score_{kAny};
-};
 
 class SegmentSearch {
   public:
@@ -119,7 +100,7 @@ struct Blocks {
 class Visitor {
   public:
     // All outlive the visitor.
-    Visitor(const SegmentSearch& search, TopK& top, WorstKept& worst);
+    Visitor(const SegmentSearch& search, BestKept& best);
 
     // Adds up the rows of neighbouring blocks, which all begin at `due`: whether the
     // pictures of each are to be looked at. Together they cost much less than one by one.
@@ -152,8 +133,7 @@ class Visitor {
     void compare(const Candidate& candidate);
 
     const SegmentSearch& search_;
-    TopK& top_;
-    WorstKept& worst_;
+    BestKept& best_;
     SearchEffort effort_;
     BitSums sums_;
     BitSums coarse_sums_;

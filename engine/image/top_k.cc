@@ -5,11 +5,12 @@
 #include <utility>
 
 namespace haarmony::image {
-TopK::TopK(int limit) : limit_(static_cast<std::size_t>(limit)) { assert(limit >= 0); }
+
+TopK::TopK(int limit) : limit_(static_cast<std::size_t>(limit)) { assert(limit >= 1); }
 
 void TopK::offer(const Match& match) {
     if (full()) {
-        if (limit_ == 0 || !better(match, heap_.front())) return;
+        if (!better(match, heap_.front())) return;
         std::pop_heap(heap_.begin(), heap_.end(), better);
         heap_.back() = match;
     } else {

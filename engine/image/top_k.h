@@ -13,17 +13,12 @@ namespace haarmony::image {
 
 class TopK {
   public:
-    // Requires: limit >= 0.
+    // Requires: limit >= 1.
     explicit TopK(int limit);
-
-    // Whether a match of this score could still be kept; false saves looking further.
-    [[nodiscard]] bool admits(Score score) const {
-        return !full() || (limit_ > 0 && score <= heap_.front().score);
-    }
 
     // Whether as many are kept as are wanted; from then on worst() is the score to beat.
     [[nodiscard]] bool full() const { return heap_.size() == limit_; }
-    // Requires: full(), and a limit above 0.
+    // Requires: full().
     [[nodiscard]] Score worst() const { return heap_.front().score; }
 
     // Cost: constant where the match is not kept, else logarithmic in the limit.

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <functional>
 
+#include "server/app/thread_executor.h"
 #include "tests/eval/paired_times.h"
-#include "tests/eval/worker_threads.h"
 
 namespace haarmony::eval {
 namespace {
@@ -34,7 +34,7 @@ std::vector<CoresRow> measure_cores(const image::IndexSnapshot& snapshot,
 
     std::vector<CoresRow> rows;
     for (int count = 1; count <= threads; ++count) {
-        WorkerThreads workers(count);
+        server::ThreadExecutor workers(count - 1);
         std::atomic<std::int64_t> mismatches = 0;
         const auto ask = [&](std::size_t i, Executor* executor) {
             const std::size_t q = i % queries.size();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/app/thread_executor.h"
 #include "tests/eval/copies.h"
 #include "tests/eval/curves.h"
 #include "tests/eval/figures.h"
@@ -15,7 +16,6 @@
 #include "tests/eval/speed_report.h"
 #include "tests/eval/train_profile.h"
 #include "tests/eval/video_report.h"
-#include "tests/eval/worker_threads.h"
 
 namespace {
 
@@ -52,7 +52,7 @@ struct FiguresCommand {
 int run_figures(const FiguresCommand& command) {
     const auto source = haarmony::eval::folder_source(command.images);
     if (!source) return failed(source.error());
-    haarmony::eval::WorkerThreads threads(command.threads);
+    haarmony::server::ThreadExecutor threads(command.threads - 1);
     const auto files = haarmony::eval::make_figures(
         *source, command.options, threads, [](const std::string& line) {
             std::cerr << line << '\n';
@@ -68,7 +68,7 @@ struct SpeedCommand {
 
 int run_speed(SpeedCommand command) {
     std::ranges::sort(command.options.images);
-    haarmony::eval::WorkerThreads threads(command.options.threads);
+    haarmony::server::ThreadExecutor threads(command.options.threads - 1);
     const auto report = haarmony::eval::measure_speed(
         command.options, threads, [](const std::string& line) {
             std::cerr << line << '\n';

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "engine/image/index.h"
+#include "server/app/thread_executor.h"
 #include "tests/bench/http/synthetic_rows.h"
 #include "tests/eval/exhaustive_matches.h"
 #include "tests/eval/packed_signature.h"
 #include "tests/eval/paired_times.h"
 #include "tests/eval/plain_search.h"
 #include "tests/eval/speed.h"
-#include "tests/eval/worker_threads.h"
 
 namespace {
 
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
 
-    eval::WorkerThreads executor(options.threads);
+    server::ThreadExecutor executor(options.threads - 1);
     const auto signatures = make_signatures(options, executor);
     const std::unique_ptr<image::Index> index = make_index(signatures);
     const auto snapshot = index->snapshot();

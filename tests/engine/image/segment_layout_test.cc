@@ -30,9 +30,8 @@ std::uint64_t read_all(const SegmentView& view, const Profile& profile, Signatur
         const Query query = make_query(asked, profile, m);
         const Rounding rounding(query);
         const SegmentSearch search(view, query, rounding, {});
-        TopK top(10);
-        WorstKept worst;
-        Visitor visitor(search, top, worst);
+        BestKept best(10);
+        Visitor visitor(search, best);
         for (int first = 0; first < blocks; first += kBlocksAtOnce) {
             std::array<bool, kBlocksAtOnce> due{};
             due.fill(true);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "server/app/thread_executor.h"
 #include "tests/eval/database_size.h"
 #include "tests/eval/figure_4_5.h"
 #include "tests/eval/figure_4_6.h"
@@ -12,7 +13,6 @@
 #include "tests/eval/robustness.h"
 #include "tests/eval/table_4_2.h"
 #include "tests/eval/test/generated_pictures.h"
-#include "tests/eval/worker_threads.h"
 
 namespace haarmony::eval {
 namespace {
@@ -23,7 +23,7 @@ constexpr int kQueries = 4;
 class Figures : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
-        static WorkerThreads threads(2);
+        static server::ThreadExecutor threads(1);
         static const PictureSource source = generated_pictures(kPictures);
         static const Database database =
             make_database(source, all_kinds(), threads).value();
@@ -39,7 +39,7 @@ class Figures : public ::testing::Test {
 };
 
 TEST_F(Figures, TheControlIsAtChance) {
-    WorkerThreads threads(2);
+    server::ThreadExecutor threads(1);
     const Experiment everything =
         Experiment::prepare(
             generated_pictures(kPictures), experiment_->database(), 1, kPictures, threads)
@@ -106,7 +106,7 @@ TEST(CurvePlaces, RiseFromTheFirstPictureToAll) {
 
 TEST(Figure47, StartsUndistorted) {
     constexpr int kFew = 10;  // all of them are distorted
-    WorkerThreads threads(2);
+    server::ThreadExecutor threads(1);
     const PictureSource source = generated_pictures(kFew);
     const Database database =
         make_database(source, {image::SignatureKind{}}, threads).value();

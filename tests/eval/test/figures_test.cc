@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "ingest/thumbnail.h"
+#include "server/app/thread_executor.h"
 #include "tests/eval/test/generated_pictures.h"
 #include "tests/eval/test/xml_reader.h"
-#include "tests/eval/worker_threads.h"
 #include "tests/support/temporary_folder.h"
 
 namespace haarmony::eval {
@@ -22,7 +22,7 @@ namespace {
 using Files = std::map<std::string, std::string>;
 
 Files run(std::uint64_t seed, int threads) {
-    WorkerThreads executor(threads);
+    server::ThreadExecutor executor(threads - 1);
     FiguresOptions options;
     options.seed = seed;
     options.queries = 2;

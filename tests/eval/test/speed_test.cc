@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "ingest/thumbnail.h"
+#include "server/app/thread_executor.h"
 #include "tests/eval/printed_times.h"
 #include "tests/eval/signature_cache.h"
 #include "tests/eval/speed_csv.h"
@@ -20,7 +21,6 @@
 #include "tests/eval/test/generated_pictures.h"
 #include "tests/eval/test/xml_reader.h"
 #include "tests/eval/text_table.h"
-#include "tests/eval/worker_threads.h"
 #include "tests/support/temporary_folder.h"
 
 namespace haarmony::eval {
@@ -37,7 +37,7 @@ SpeedOptions small_options() {
 }
 
 Result<SpeedReport> run(const SpeedOptions& options, std::string* heard = nullptr) {
-    WorkerThreads threads(2);
+    server::ThreadExecutor threads(1);
     return measure_speed(options, threads, [&](const std::string& line) {
         if (heard != nullptr) *heard += line + '\n';
     });

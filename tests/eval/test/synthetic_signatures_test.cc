@@ -6,20 +6,20 @@
 #include <cstdlib>
 #include <set>
 
+#include "server/app/thread_executor.h"
 #include "tests/eval/synthetic_pictures.h"
 #include "tests/eval/test/generated_pictures.h"
-#include "tests/eval/worker_threads.h"
 
 namespace haarmony::eval {
 namespace {
 
 SmallPhotos few_photos() {
-    WorkerThreads threads(2);
+    server::ThreadExecutor threads(1);
     return *load_small_photos(generated_pictures(12), threads);
 }
 
 SyntheticCollection made(const SyntheticSize& size, int threads) {
-    WorkerThreads executor(threads);
+    server::ThreadExecutor executor(threads - 1);
     return make_synthetic_collection(few_photos(), size, executor);
 }
 

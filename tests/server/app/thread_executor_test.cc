@@ -50,5 +50,13 @@ TEST(ThreadExecutor, WorkGoesOnAtTheSameTime) {
     EXPECT_EQ(there, 2);
 }
 
+TEST(ThreadExecutor, WorkMayDivideItself) {
+    ThreadExecutor executor(1);
+    std::atomic<int> done{0};
+    executor.parallel_for(
+        4, [&](std::size_t) { executor.parallel_for(8, [&](std::size_t) { ++done; }); });
+    EXPECT_EQ(done, 32);
+}
+
 }  // namespace
 }  // namespace haarmony::server
