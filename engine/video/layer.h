@@ -20,6 +20,7 @@
 
 #include "engine/core/result.h"
 #include "engine/video/brick.h"
+#include "engine/video/bricks.h"
 #include "engine/video/clip_shape.h"
 #include "engine/video/image_tree.h"
 
@@ -50,10 +51,10 @@ struct LinkedNode {
 // The own nodes and bricks of two siblings at one space level.
 struct Layer {
     std::vector<LinkedNode> nodes;
-    std::vector<Brick> bricks;
+    Bricks bricks;
 
     [[nodiscard]] std::size_t memory_bytes() const {
-        return nodes.size() * sizeof(LinkedNode) + bricks.size() * sizeof(Brick);
+        return nodes.size() * sizeof(LinkedNode) + bricks.memory_bytes();
     }
     friend bool operator==(const Layer&, const Layer&) = default;
 };

@@ -19,8 +19,12 @@ struct LayerChain {
     [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
         return layer(level, ref).nodes[index_of(ref)];
     }
-    [[nodiscard]] const Brick& brick(int level, Ref ref) const {
+    [[nodiscard]] Brick brick(int level, Ref ref) const {
         return layer(level, ref).bricks[index_of(ref)];
+    }
+    // Whether a brick is `brick`, byte for byte.
+    [[nodiscard]] bool equals(int level, Ref ref, const Brick& brick) const {
+        return layer(level, ref).bricks.equals(index_of(ref), brick);
     }
 
   private:

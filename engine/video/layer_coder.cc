@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <span>
 #include <string>
 
 #include "engine/video/brick_coder.h"
@@ -14,10 +15,14 @@ namespace {
 // The order in which a layer's nodes and bricks are coded, and what is known at each.
 class LayerCoding {
   public:
-    LayerCoding(const LayerSurroundings& surroundings, const LayerSize& size)
+    // `bricks` are the layer's own, as far as they are known.
+    LayerCoding(const LayerSurroundings& surroundings,
+                const LayerSize& size,
+                std::span<const Brick> bricks)
         : at_(surroundings),
           level_(surroundings.space_level),
           own_(surroundings.address.time_level),
+          own_bricks_(bricks),
           places_(places(surroundings)),
           node_known_(size.nodes),
           brick_known_(size.bricks) {}
@@ -114,24 +119,29 @@ class LayerCoding {
                                      std::size_t buffer) {
         if (!shown.any()) return nullptr;
         const Ref ref = at_.node(shown.level, shown.node).brick;
-        const bool own = shown.level == level_ && time_level_of(ref) == own_;
-        if (own && !brick_known_[index_of(ref)]) return nullptr;
-        const Brick& brick = at_.brick(shown.level, ref);
-        if (shown.level == level) return &brick;
-        enlarge(brick, level - shown.level, x, y, enlarged_[buffer]);
-        return &enlarged_[buffer];
+        if (shown.level == level_ && time_level_of(ref) == own_) {
+            return brick_known_[index_of(ref)] ? &own_bricks_[index_of(ref)] : nullptr;
+        }
+        Brick& brick = around_[buffer];
+        brick = at_.brick(shown.level, ref);
+        if (shown.level < level) {
+            const Brick coarser = brick;
+            enlarge(coarser, level - shown.level, x, y, brick);
+        }
+        return &brick;
     }
 
     const LayerSurroundings& at_;
     int level_;
     int own_;
+    std::span<const Brick> own_bricks_;
     std::vector<Placed> places_;
     std::vector<bool> node_known_;
     std::vector<bool> brick_known_;
     RefSequence bricks_{own_};
     RefSequence children_{own_};
     BrickNeighbors neighbors_;
-    std::array<Brick, 7> enlarged_;
+    std::array<Brick, 7> around_;  // those that are not the layer's own
 };
 
 bool within(const LinkedNode& node,
@@ -186,8 +196,10 @@ std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings,
     const LayerSize size{static_cast<std::uint32_t>(layer.nodes.size()),
                          static_cast<std::uint32_t>(layer.bricks.size())};
     assert(!size.empty());
+    std::vector<Brick> own(size.bricks);
+    for (std::size_t i = 0; i < own.size(); ++i) layer.bricks.get(i, own[i]);
     SymbolWriter symbols;
-    LayerCoding coding(surroundings, size);
+    LayerCoding coding(surroundings, size, own);
     PutRefs refs(symbols);
     coding.each_node([&](std::uint32_t node, const Placed* place) {
         LinkedNode copy = layer.nodes[node];
@@ -196,7 +208,7 @@ std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings,
     });
     BrickEncoder bricks(symbols, costs);
     coding.each_brick([&](std::uint32_t brick, const Placed* place) {
-        bricks.put(layer.bricks[brick], coding.neighbors(place));
+        bricks.put(own[brick], coding.neighbors(place));
         return true;
     });
     std::vector<std::byte> chunk;
@@ -214,8 +226,10 @@ Result<void> decode_layer(std::span<const std::byte> chunk,
     auto symbols = SymbolReader::open(*coded);
     if (!symbols) return std::move(symbols).error();
     layer.nodes.assign(size.nodes, {});
-    layer.bricks.resize(size.bricks);
-    LayerCoding coding(surroundings, size);
+    layer.bricks.clear();
+    // They come in the order in which they are shown.
+    std::vector<Brick> own(size.bricks);
+    LayerCoding coding(surroundings, size, own);
     TakeRefs refs(symbols->cursor());
     Result<void> decoded;
     coding.each_node([&](std::uint32_t node, const Placed* place) {
@@ -227,11 +241,13 @@ Result<void> decode_layer(std::span<const std::byte> chunk,
     if (!decoded) return decoded;
     BrickDecoder bricks(symbols->cursor());
     coding.each_brick([&](std::uint32_t brick, const Placed* place) {
-        decoded = bricks.next(layer.bricks[brick], coding.neighbors(place));
+        decoded = bricks.next(own[brick], coding.neighbors(place));
         return decoded.has_value();
     });
     if (!decoded) return decoded;
     if (!symbols->at_end()) return damaged("symbols left over or missing");
+    layer.bricks.reserve(own.size());
+    for (const Brick& brick : own) layer.bricks.push_back(brick);
     return {};
 }
 

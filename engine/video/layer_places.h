@@ -37,7 +37,7 @@ struct LayerSurroundings {
     [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
         return layer(time_level_of(ref), level).nodes[index_of(ref)];
     }
-    [[nodiscard]] const Brick& brick(int level, Ref ref) const {
+    [[nodiscard]] Brick brick(int level, Ref ref) const {
         return layer(time_level_of(ref), level).bricks[index_of(ref)];
     }
 };

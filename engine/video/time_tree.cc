@@ -25,7 +25,7 @@ Frame::Frame(const ClipShape& shape,
     for (std::size_t level = 0; level < levels; ++level) {
         for (const std::vector<LayerPtr>& layers : chain_) {
             const Layer& layer = *layers[level];
-            tables_.push_back({layer.nodes.data(), layer.bricks.data()});
+            tables_.push_back({layer.nodes.data(), &layer.bricks});
         }
     }
 }

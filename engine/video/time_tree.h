@@ -52,14 +52,14 @@ class Frame {
     [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
         return tables_[row(level, ref)].nodes[index_of(ref)];
     }
-    [[nodiscard]] const Brick& brick(int level, Ref ref) const {
-        return tables_[row(level, ref)].bricks[index_of(ref)];
+    [[nodiscard]] Brick brick(int level, Ref ref) const {
+        return (*tables_[row(level, ref)].bricks)[index_of(ref)];
     }
 
   private:
     struct Table {
         const LinkedNode* nodes = nullptr;
-        const Brick* bricks = nullptr;
+        const Bricks* bricks = nullptr;
     };
     [[nodiscard]] std::size_t row(int level, Ref ref) const {
         return static_cast<std::size_t>((level - kBrickLevel) * (stored_.time_level + 1) +

@@ -84,14 +84,14 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
         above == kNoDetailRef ? nullptr : &chain_.node(level, above);
     if (level == finest_) {
         const Brick& brick = frame.bricks[exact.brick];
-        const bool linked =
-            shown != nullptr && same_bytes(brick, chain_.brick(level, shown->brick));
+        const bool linked = shown != nullptr && chain_.equals(level, shown->brick, brick);
         return resolved = linked ? above : own_finest(brick);
     }
     LinkedNode made;
     made.brick = brick_for(frame.bricks[exact.brick], level, shown);
     if (made.brick == kNoDetailRef) return kNoDetailRef;
-    const Brick& displayed = chain_.brick(level, made.brick);
+    Brick displayed;
+    if (delta_ > 0) displayed = chain_.brick(level, made.brick);
     for (int q = 0; q < 4; ++q) {
         const auto quadrant = static_cast<std::size_t>(q);
         const std::uint32_t below = exact.child[quadrant];
@@ -106,9 +106,11 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
 }
 
 Ref UpLinks::brick_for(const Brick& exact, int level, const LinkedNode* above) {
-    if (above != nullptr && within(exact, chain_.brick(level, above->brick), delta_)) {
-        return above->brick;
-    }
+    const auto shown = [&] {
+        return delta_ == 0 ? chain_.equals(level, above->brick, exact)
+                           : within(exact, chain_.brick(level, above->brick), delta_);
+    };
+    if (above != nullptr && shown()) return above->brick;
     return own(exact, level);
 }
 
@@ -116,7 +118,7 @@ Ref UpLinks::own(const Brick& brick, int level) {
     return table_.find_or_make(
         hash_of(brick),
         brick_kind(level),
-        [&](Ref ref) { return same_bytes(brick, chain_.brick(level, ref)); },
+        [&](Ref ref) { return chain_.equals(level, ref, brick); },
         [&] { return append(own_layer(level).bricks, brick, level); });
 }
 
@@ -134,7 +136,7 @@ Ref UpLinks::own_finest(const Brick& brick) {
         node_kind(finest_),
         [&](Ref ref) {
             const Ref known = chain_.node(finest_, ref).brick;
-            return same_bytes(brick, chain_.brick(finest_, known));
+            return chain_.equals(finest_, known, brick);
         },
         [&] {
             LinkedNode node;
@@ -144,8 +146,8 @@ Ref UpLinks::own_finest(const Brick& brick) {
         });
 }
 
-template <typename T>
-Ref UpLinks::append(std::vector<T>& to, const T& what, int level) {
+template <typename List, typename T>
+Ref UpLinks::append(List& to, const T& what, int level) {
     if (to.size() > max_index_) {
         full_level_ = level;
         return kNoDetailRef;

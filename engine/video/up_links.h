@@ -56,8 +56,8 @@ class UpLinks {
     Ref own(const LinkedNode& node, int level);
     // Of the finest level, where a node is its brick: one look-up instead of two.
     Ref own_finest(const Brick& brick);
-    template <typename T>
-    Ref append(std::vector<T>& to, const T& what, int level);
+    template <typename List, typename T>
+    Ref append(List& to, const T& what, int level);
     [[nodiscard]] Layer& own_layer(int level) {
         return chain_.layers[static_cast<std::size_t>(depth_) - 1]
                             [static_cast<std::size_t>(level - kBrickLevel)];

@@ -16,6 +16,10 @@ LinkedNode leaf(Ref brick) {
     return node;
 }
 
+void add_two(Bricks& bricks) {
+    for (int i = 0; i < 2; ++i) bricks.push_back(Brick{});
+}
+
 // A root of two levels and a second half that shares the first's left side.
 struct TwoHalves {
     std::vector<Layer> top{2};
@@ -27,13 +31,13 @@ struct TwoHalves {
         top[0].nodes = {{make_ref(0, 0),
                          {make_ref(0, 0), kNoDetailRef, kNoDetailRef, make_ref(0, 1)}}};
         top[1].nodes = {leaf(make_ref(0, 0)), leaf(make_ref(0, 1))};
-        for (Layer& layer : top) layer.bricks.resize(2);
+        for (Layer& layer : top) add_two(layer.bricks);
         own[0].nodes = {{make_ref(1, 0),
                          {make_ref(1, 0), make_ref(1, 1), make_ref(0, 0), kNoDetailRef}},
                         {make_ref(1, 1),
                          {make_ref(1, 0), make_ref(1, 2), kNoDetailRef, make_ref(1, 2)}}};
         own[1].nodes.resize(4, leaf(make_ref(0, 0)));
-        for (Layer& layer : own) layer.bricks.resize(2);
+        for (Layer& layer : own) add_two(layer.bricks);
         top_nodes.count = 1;
         top_nodes.node[0].root = {make_ref(0, 0), make_ref(0, 0)};
         nodes.count = 2;

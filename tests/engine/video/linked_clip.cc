@@ -15,7 +15,7 @@ struct PlainNode {
     int level;
     Ref ref;
 
-    [[nodiscard]] const Brick& brick() const {
+    [[nodiscard]] Brick brick() const {
         return frame->brick(level, frame->node(level, ref).brick);
     }
     [[nodiscard]] std::optional<PlainNode> child(std::size_t q) const {

@@ -15,8 +15,9 @@ Siblings siblings(int time_level, std::int64_t index, std::uint8_t red) {
         layer.nodes.reserve(100);
         layer.bricks.reserve(100);
         layer.nodes.resize(3);
-        layer.bricks.resize(1);
-        layer.bricks[0].fill({red, 0, 0, 255});
+        Brick brick;
+        brick.fill({red, 0, 0, 255});
+        layer.bricks.push_back(brick);
     }
     return made;
 }

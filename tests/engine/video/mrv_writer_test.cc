@@ -35,6 +35,16 @@ TEST(MrvWriter, EqualClipsAreEqualBytes) {
     EXPECT_NE(one, mrv_bytes(linked_clip(30, 30, 5, 3)));
 }
 
+void change_first(Bricks& bricks) {
+    Bricks changed;
+    for (std::size_t i = 0; i < bricks.size(); ++i) {
+        Brick brick = bricks[i];
+        if (i == 0) brick[63] = {static_cast<std::uint8_t>(brick[63].r + 1), 0, 0, 255};
+        changed.push_back(brick);
+    }
+    bricks = changed;
+}
+
 TEST(MrvWriter, TheRevisionFollowsTheContent) {
     const auto revision = [](const LinkedClip& clip) {
         return (*decode_front(mrv_bytes(clip))).revision;
@@ -45,15 +55,16 @@ TEST(MrvWriter, TheRevisionFollowsTheContent) {
     ++clip.delta;
     EXPECT_NE(first, revision(clip));
     --clip.delta;
-    Rgba& pixel = clip.siblings.front().layers.back().bricks.front()[63];
-    pixel = {static_cast<std::uint8_t>(pixel.r + 1), pixel.g, pixel.b, 255};
+    change_first(clip.siblings.front().layers.back().bricks);
     EXPECT_NE(first, revision(clip));
 }
 
 TEST(MrvWriter, AFlatLayerKeepsWithinTheExpansionThatAReaderAllows) {
     LinkedClip clip = linked_clip(16, 16, 1, 4);
     Layer& layer = clip.siblings[0].layers[1];
-    layer.bricks.assign(4'000, layer.bricks.front());
+    const Brick brick = layer.bricks[0];
+    layer.bricks.clear();
+    for (int i = 0; i < 4'000; ++i) layer.bricks.push_back(brick);
     const auto file = mrv_bytes(clip);
     const Result<MrvFront> front = decode_front(file);
     ASSERT_TRUE(front.has_value());

@@ -64,12 +64,13 @@ Ref add_tree(const RawClip& clip,
         const std::uint32_t side = 1U << depth;
         for (std::uint32_t by = 0; by < side; ++by) {
             for (std::uint32_t bx = 0; bx < side; ++bx) {
-                Brick& brick = layers[depth].bricks.emplace_back();
+                Brick brick;
                 for (int i = 0; i < kBrickPixels; ++i) {
                     brick[static_cast<std::size_t>(i)] =
                         square.at(static_cast<int>(bx) * kBrickSide + i % kBrickSide,
                                   static_cast<int>(by) * kBrickSide + i / kBrickSide);
                 }
+                layers[depth].bricks.push_back(brick);
                 LinkedNode& node = layers[depth].nodes.emplace_back();
                 node.brick =
                     make_ref(time_level,

@@ -37,10 +37,12 @@ class CountedTree final : public TimeTree {
         ++layers_read[{address.time_level, space_level}];
         Layer made;
         made.nodes.resize(2);
-        made.bricks.resize(2);
         const auto mark = static_cast<std::uint8_t>(64 * address.time_level +
                                                     8 * address.index + space_level);
-        made.bricks[1].fill({mark, 0, 0, 255});
+        Brick brick{};
+        made.bricks.push_back(brick);
+        brick.fill({mark, 0, 0, 255});
+        made.bricks.push_back(brick);
         made.nodes[1].brick = make_ref(address.time_level, mark);
         return Frame::LayerPtr(std::make_shared<const Layer>(std::move(made)));
     }
