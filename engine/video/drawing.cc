@@ -6,21 +6,18 @@
 namespace haarmony::video {
 namespace {
 
-constexpr std::size_t kRowBytes = kBrickSide * sizeof(Rgba);
 constexpr int kHalf = kBrickSide / 2;
 
 void copy_pixels(Rgba* out, const Rgba* pixels, std::int32_t count) {
     std::memcpy(out, pixels, static_cast<std::size_t>(count) * sizeof(Rgba));
 }
 
-// Most missing children are one level above what is drawn: 4 x 4 pixels, each doubled.
-void put_doubled(Rgba* out, std::ptrdiff_t stride, const Rgba* pixels) {
-    for (int v = 0; v < kHalf; ++v, pixels += kBrickSide, out += 2 * stride) {
-        Rgba row[kBrickSide];
-        for (int u = 0; u < kHalf; ++u) row[2 * u] = row[2 * u + 1] = pixels[u];
-        std::memcpy(out, row, kRowBytes);
-        std::memcpy(out + stride, row, kRowBytes);
-    }
+// Nothing waits for it.
+void fetch(const PackedBrick& brick) {
+    constexpr std::size_t kLine = 64;
+    for (std::size_t i = 0; i < sizeof(BrickColors); i += kLine)
+        __builtin_prefetch(brick.colors->byte.data() + i);
+    if (brick.alphas != nullptr) __builtin_prefetch(brick.alphas);
 }
 
 }  // namespace
@@ -28,7 +25,7 @@ void put_doubled(Rgba* out, std::ptrdiff_t stride, const Rgba* pixels) {
 void Drawing::tree(int at_level, Ref ref, std::int32_t x, std::int32_t y) {
     const LinkedNode& node = frame_.node(at_level, ref);
     if (at_level == level_) {
-        brick(frame_.brick(at_level, node.brick), x, y);
+        brick(node.brick, x, y);
         return;
     }
     const std::int32_t half = kHalf << (level_ - at_level);
@@ -37,7 +34,7 @@ void Drawing::tree(int at_level, Ref ref, std::int32_t x, std::int32_t y) {
         const std::int32_t child_y = y + ((q & 2) != 0 ? half : 0);
         if (!touches(child_x, child_y, half)) continue;
         if (node.child[q] == kNoDetailRef) {
-            const Brick& pixels = frame_.brick(at_level, node.brick);
+            const PackedBrick pixels = frame_.packed(at_level, node.brick);
             flat(pixels, q, child_x, child_y, level_ - at_level);
         } else {
             tree(at_level + 1, node.child[q], child_x, child_y);
@@ -45,16 +42,17 @@ void Drawing::tree(int at_level, Ref ref, std::int32_t x, std::int32_t y) {
     }
 }
 
-void Drawing::brick(const Brick& brick, std::int32_t x, std::int32_t y) {
+void Drawing::brick(Ref ref, std::int32_t x, std::int32_t y) {
     ++squares_;
+    const PackedBrick packed = frame_.packed(level_, ref);
     if (holds(x, y, kBrickSide)) {
-        Rgba* out = at(x, y);
-        const Rgba* row = brick.data();
-        for (int v = 0; v < kBrickSide; ++v, row += kBrickSide, out += stride_) {
-            std::memcpy(out, row, kRowBytes);
-        }
+        fetch(packed);
+        if (waiting_count_ == kMostWaiting) put_waiting();
+        waiting_[waiting_count_++] = {packed, at(x, y)};
         return;
     }
+    Brick brick;
+    unpack(packed, brick);
     const std::int32_t left = std::max(x, left_);
     const std::int32_t count = std::min(x + kBrickSide, right_) - left;
     const std::int32_t end = std::min(y + kBrickSide, bottom_);
@@ -64,21 +62,27 @@ void Drawing::brick(const Brick& brick, std::int32_t x, std::int32_t y) {
     }
 }
 
-void Drawing::flat(const Brick& brick,
+void Drawing::put_waiting() {
+    put_bricks({waiting_.data(), waiting_count_}, stride_);
+    waiting_count_ = 0;
+}
+
+void Drawing::flat(const PackedBrick& packed,
                    unsigned quadrant,
                    std::int32_t x,
                    std::int32_t y,
                    int shift) {
     ++squares_;
-    const bool right_half = (quadrant & 1) != 0;
-    const bool lower_half = (quadrant & 2) != 0;
-    const Rgba* pixels =
-        brick.data() + (right_half ? kHalf : 0) + (lower_half ? kHalf * kBrickSide : 0);
     const std::int32_t side = kHalf << shift;
+    // Most missing children are one level above what is drawn.
     if (shift == 1 && holds(x, y, side)) {
-        put_doubled(at(x, y), stride_, pixels);
+        put_doubled(packed, static_cast<int>(quadrant), at(x, y), stride_);
         return;
     }
+    Brick brick;
+    unpack(packed, brick);
+    const Rgba* pixels = brick.data() + ((quadrant & 1) != 0 ? kHalf : 0) +
+                         ((quadrant & 2) != 0 ? kHalf * kBrickSide : 0);
     const std::int32_t left = std::max(x, left_);
     const std::int32_t right = std::min(x + side, right_);
     for (int v = 0; v < kHalf; ++v, pixels += kBrickSide) {

@@ -1,5 +1,5 @@
 // Squares of an image tree put into a buffer of pixels: what all ways of drawing share.
-//   time_tree.h -> [drawing.h] -> display.h, incremental_display.h
+//   time_tree.h, brick_packing.h -> [drawing.h] -> display.h, incremental_display.h
 //
 // Shape   (x, y) is a square's origin in pixels of the level that is drawn; a square of a node
 //         at level m is 8 x 2^(level - m) pixels wide. What lies outside the box is left out.
@@ -8,9 +8,11 @@
 // Source  sec. 5.3.2, Figure 5.8 [DrawImage, DrawSquare, DrawPixel].
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/video/brick_packing.h"
 #include "engine/video/picture.h"
 #include "engine/video/time_tree.h"
 
@@ -32,13 +34,17 @@ class Drawing {
           bottom_(box.y + box.height),
           out_(out),
           stride_(stride) {}
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+    // All that was asked for is drawn by now, and not before.
+    ~Drawing() { put_waiting(); }
 
     // A node of level `at` <= the level drawn, and all below it.
     void tree(int at, Ref node, std::int32_t x, std::int32_t y);
     // A brick of the level drawn.
-    void brick(const Brick& brick, std::int32_t x, std::int32_t y);
+    void brick(Ref ref, std::int32_t x, std::int32_t y);
     // A quadrant of a brick that has no finer detail: each pixel a square of 2^shift.
-    void flat(const Brick& brick,
+    void flat(const PackedBrick& brick,
               unsigned quadrant,
               std::int32_t x,
               std::int32_t y,
@@ -51,12 +57,16 @@ class Drawing {
     }
 
   private:
+    // Bricks wait until their pixels, asked for when they were found, have come from memory.
+    static constexpr std::size_t kMostWaiting = 32;
+
     [[nodiscard]] bool holds(std::int32_t x, std::int32_t y, std::int32_t side) const {
         return x >= left_ && y >= top_ && x + side <= right_ && y + side <= bottom_;
     }
     [[nodiscard]] Rgba* at(std::int32_t x, std::int32_t y) const {
         return out_ + (y - top_) * stride_ + (x - left_);
     }
+    void put_waiting();
 
     const Frame& frame_;
     int level_;
@@ -64,6 +74,8 @@ class Drawing {
     Rgba* out_;
     std::ptrdiff_t stride_;
     std::int64_t squares_ = 0;
+    std::array<BrickPut, kMostWaiting> waiting_;
+    std::size_t waiting_count_ = 0;
 };
 
 }  // namespace haarmony::video

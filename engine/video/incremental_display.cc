@@ -62,11 +62,12 @@ class Changes {
         if (same(before, after)) return;
         const LinkedNode& old_node = shown_.node(at, before);
         const LinkedNode& new_node = next_.node(at, after);
-        const Brick& old_brick = shown_.brick(at, old_node.brick);
-        const Brick& new_brick = next_.brick(at, new_node.brick);
+        const PackedBrick old_brick = shown_.packed(at, old_node.brick);
+        const PackedBrick new_brick = next_.packed(at, new_node.brick);
         if (at == level_) {
-            if (same(old_node.brick, new_node.brick) || old_brick == new_brick) return;
-            drawing_.brick(new_brick, x, y);
+            if (same(old_node.brick, new_node.brick) || same_pixels(old_brick, new_brick))
+                return;
+            drawing_.brick(new_node.brick, x, y);
             note(x, y, kBrickSide);
             return;
         }
@@ -84,7 +85,7 @@ class Changes {
                 drawing_.tree(at + 1, new_child, child_x, child_y);
                 note(child_x, child_y, half);
             } else if (old_child != kNoDetailRef ||
-                       !same_quadrant(old_brick, new_brick, q)) {
+                       !same_quadrant(old_brick, new_brick, static_cast<int>(q))) {
                 drawing_.flat(new_brick, q, child_x, child_y, shift);
                 note(child_x, child_y, half);
             }
@@ -96,16 +97,6 @@ class Changes {
   private:
     [[nodiscard]] bool same(Ref before, Ref after) const {
         return before == after && time_level_of(before) <= shared_;
-    }
-    [[nodiscard]] static bool same_quadrant(const Brick& a, const Brick& b, unsigned q) {
-        constexpr int kHalf = kBrickSide / 2;
-        const std::size_t first =
-            ((q & 1) != 0 ? kHalf : 0) + ((q & 2) != 0 ? kHalf * kBrickSide : 0);
-        for (std::size_t i = first; i < first + kHalf * kBrickSide; i += kBrickSide) {
-            if (!std::equal(a.begin() + i, a.begin() + i + kHalf, b.begin() + i))
-                return false;
-        }
-        return true;
     }
     void note(std::int32_t x, std::int32_t y, std::int32_t side) {
         redrawn_ = around(redrawn_, common(box_, {x, y, side, side}));

@@ -8,8 +8,9 @@
 //          level, 3 and up. A Ref names a node or a brick of the same frame's chain: the time
 //          level of the siblings that own it (its own, or a time-ancestor's), and the index
 //          in their layer of the space level at hand.
-// Memory   20 bytes a node, 256 a brick; only the siblings on the way from the root of the
-//          time tree to the frame on display need be in memory (sec. 5.2.4).
+// Memory   20 bytes a node, 192 an opaque brick and 256 another (bricks.h); only the siblings
+//          on the way from the root of the time tree to the frame on display need be in
+//          memory (sec. 5.2.4).
 // Source   sec. 5.2.1, Figures 5.2, 5.4; sec. 5.2.2 [up-links]; ERRATA of the project,
 //          video, "Lossy bound".
 #pragma once

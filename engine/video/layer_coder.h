@@ -4,7 +4,8 @@
 //
 // Shape    MRV.md, "Chunks". Nodes and bricks keep their numbers.
 // Errors   decoding: kUndecodable; every ref of a decoded layer lies within its layer.
-//          Hostile bytes cost no more than kMostExpansion times their length.
+//          Hostile bytes cost no more than kMostExpansion times their length, and while a
+//          layer is decoded twice that.
 // Source   sec. 5.5 [compressed without loss].
 #pragma once
 
@@ -26,6 +27,8 @@ struct LayerSize {
     std::uint32_t nodes = 0;
     std::uint32_t bricks = 0;
 
+    // Decoded pixel by pixel. Layer::memory_bytes() is no more, but for 8 bytes for 32 bricks
+    // where none of them is opaque.
     [[nodiscard]] std::uint64_t memory_bytes() const {
         return std::uint64_t{nodes} * sizeof(LinkedNode) +
                std::uint64_t{bricks} * sizeof(Brick);

@@ -55,6 +55,9 @@ class Frame {
     [[nodiscard]] Brick brick(int level, Ref ref) const {
         return (*tables_[row(level, ref)].bricks)[index_of(ref)];
     }
+    [[nodiscard]] PackedBrick packed(int level, Ref ref) const {
+        return tables_[row(level, ref)].bricks->packed(index_of(ref));
+    }
 
   private:
     struct Table {
