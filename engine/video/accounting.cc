@@ -130,7 +130,8 @@ Result<void> Counter::find_subtrees(const SiblingAddress& address, const Frame& 
         std::vector<Subtrees>& found =
             layers[static_cast<std::size_t>(level - kBrickLevel)];
         found.reserve((*layer)->nodes.size());
-        for (const LinkedNode& node : (*layer)->nodes) {
+        for (std::size_t i = 0; i < (*layer)->nodes.size(); ++i) {
+            const LinkedNode node = (*layer)->nodes[i];
             Subtrees& subtrees = found.emplace_back();
             const Brick& brick = frame.brick(level, node.brick);
             for (int q = 0; q < 4; ++q) {
@@ -202,8 +203,8 @@ PixelMask Counter::compare(int level,
                            Ref above,
                            Changes& changes) const {
     if (node == above) return kAll;
-    const LinkedNode& mine = frame.node(level, node);
-    const LinkedNode& theirs = parent.node(level, above);
+    const LinkedNode mine = frame.node(level, node);
+    const LinkedNode theirs = parent.node(level, above);
     const Subtrees& subtrees = known(level, node);
     PixelMask same = mine.brick == theirs.brick
                          ? kAll

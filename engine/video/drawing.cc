@@ -1,6 +1,7 @@
 #include "engine/video/drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace haarmony::video {
@@ -12,7 +13,7 @@ void copy_pixels(Rgba* out, const Rgba* pixels, std::int32_t count) {
     std::memcpy(out, pixels, static_cast<std::size_t>(count) * sizeof(Rgba));
 }
 
-// Nothing waits for it.
+// Asks for a brick's pixels, without waiting for them.
 void fetch(const PackedBrick& brick) {
     constexpr std::size_t kLine = 64;
     for (std::size_t i = 0; i < sizeof(BrickColors); i += kLine)
@@ -23,32 +24,54 @@ void fetch(const PackedBrick& brick) {
 }  // namespace
 
 void Drawing::tree(int at_level, Ref ref, std::int32_t x, std::int32_t y) {
-    const LinkedNode& node = frame_.node(at_level, ref);
     if (at_level == level_) {
-        brick(node.brick, x, y);
-        return;
+        leaf(ref, x, y);
+    } else {
+        below(at_level, frame_.node(at_level, ref), x, y);
     }
+}
+
+void Drawing::below(int at_level,
+                    const LinkedNode& node,
+                    std::int32_t x,
+                    std::int32_t y) {
     const std::int32_t half = kHalf << (level_ - at_level);
+    const int finer = at_level + 1;
+    // All four are read before the first is looked at: they come from memory together.
+    std::array<LinkedNode, 4> child;
+    for (unsigned q = 0; q < 4 && finer < level_; ++q) {
+        if (node.child[q] != kNoDetailRef) child[q] = frame_.node(finer, node.child[q]);
+    }
     for (unsigned q = 0; q < 4; ++q) {
         const std::int32_t child_x = x + ((q & 1) != 0 ? half : 0);
         const std::int32_t child_y = y + ((q & 2) != 0 ? half : 0);
         if (!touches(child_x, child_y, half)) continue;
         if (node.child[q] == kNoDetailRef) {
-            const PackedBrick pixels = frame_.packed(at_level, node.brick);
-            flat(pixels, q, child_x, child_y, level_ - at_level);
+            const PackedBrick brick = frame_.packed(at_level, node.brick);
+            flat(brick, q, child_x, child_y, level_ - at_level);
+        } else if (finer == level_) {
+            leaf(node.child[q], child_x, child_y);
         } else {
-            tree(at_level + 1, node.child[q], child_x, child_y);
+            below(finer, child[q], child_x, child_y);
         }
     }
 }
 
-void Drawing::brick(Ref ref, std::int32_t x, std::int32_t y) {
+void Drawing::leaf(Ref node, std::int32_t x, std::int32_t y) {
+    if (!holds(x, y, kBrickSide)) {
+        brick(frame_.brick_of(level_, node), x, y);
+        return;
+    }
     ++squares_;
-    const PackedBrick packed = frame_.packed(level_, ref);
+    if (waiting_count_ == kMostWaiting) put_waiting();
+    waiting_[waiting_count_++] = {node, at(x, y)};
+}
+
+void Drawing::brick(const PackedBrick& packed, std::int32_t x, std::int32_t y) {
+    ++squares_;
     if (holds(x, y, kBrickSide)) {
-        fetch(packed);
-        if (waiting_count_ == kMostWaiting) put_waiting();
-        waiting_[waiting_count_++] = {packed, at(x, y)};
+        const BrickPut put{packed, at(x, y)};
+        put_bricks({&put, 1}, stride_);
         return;
     }
     Brick brick;
@@ -63,7 +86,12 @@ void Drawing::brick(Ref ref, std::int32_t x, std::int32_t y) {
 }
 
 void Drawing::put_waiting() {
-    put_bricks({waiting_.data(), waiting_count_}, stride_);
+    std::array<BrickPut, kMostWaiting> puts;
+    for (std::size_t i = 0; i < waiting_count_; ++i) {
+        puts[i] = {frame_.brick_of(level_, waiting_[i].node), waiting_[i].out};
+        fetch(puts[i].brick);
+    }
+    put_bricks({puts.data(), waiting_count_}, stride_);
     waiting_count_ = 0;
 }
 

@@ -42,7 +42,7 @@ class Drawing {
     // A node of level `at` <= the level drawn, and all below it.
     void tree(int at, Ref node, std::int32_t x, std::int32_t y);
     // A brick of the level drawn.
-    void brick(Ref ref, std::int32_t x, std::int32_t y);
+    void brick(const PackedBrick& brick, std::int32_t x, std::int32_t y);
     // A quadrant of a brick that has no finer detail: each pixel a square of 2^shift.
     void flat(const PackedBrick& brick,
               unsigned quadrant,
@@ -57,8 +57,13 @@ class Drawing {
     }
 
   private:
-    // Bricks wait until their pixels, asked for when they were found, have come from memory.
-    static constexpr std::size_t kMostWaiting = 32;
+    // Nodes of the level drawn wait for each other, so that their bricks come from memory
+    // together.
+    static constexpr std::size_t kMostWaiting = 64;
+    struct Leaf {
+        Ref node{};
+        Rgba* out = nullptr;
+    };
 
     [[nodiscard]] bool holds(std::int32_t x, std::int32_t y, std::int32_t side) const {
         return x >= left_ && y >= top_ && x + side <= right_ && y + side <= bottom_;
@@ -66,6 +71,10 @@ class Drawing {
     [[nodiscard]] Rgba* at(std::int32_t x, std::int32_t y) const {
         return out_ + (y - top_) * stride_ + (x - left_);
     }
+    // What is below a node of a coarser level than the one drawn.
+    void below(int at, const LinkedNode& node, std::int32_t x, std::int32_t y);
+    // A node of the level drawn.
+    void leaf(Ref node, std::int32_t x, std::int32_t y);
     void put_waiting();
 
     const Frame& frame_;
@@ -74,7 +83,7 @@ class Drawing {
     Rgba* out_;
     std::ptrdiff_t stride_;
     std::int64_t squares_ = 0;
-    std::array<BrickPut, kMostWaiting> waiting_;
+    std::array<Leaf, kMostWaiting> waiting_;
     std::size_t waiting_count_ = 0;
 };
 

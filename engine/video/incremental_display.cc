@@ -60,14 +60,14 @@ class Changes {
 
     void tree(int at, Ref before, Ref after, std::int32_t x, std::int32_t y) {
         if (same(before, after)) return;
-        const LinkedNode& old_node = shown_.node(at, before);
-        const LinkedNode& new_node = next_.node(at, after);
+        const LinkedNode old_node = shown_.node(at, before);
+        const LinkedNode new_node = next_.node(at, after);
         const PackedBrick old_brick = shown_.packed(at, old_node.brick);
         const PackedBrick new_brick = next_.packed(at, new_node.brick);
         if (at == level_) {
             if (same(old_node.brick, new_node.brick) || same_pixels(old_brick, new_brick))
                 return;
-            drawing_.brick(new_node.brick, x, y);
+            drawing_.brick(new_brick, x, y);
             note(x, y, kBrickSide);
             return;
         }

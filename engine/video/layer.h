@@ -8,9 +8,9 @@
 //          level, 3 and up. A Ref names a node or a brick of the same frame's chain: the time
 //          level of the siblings that own it (its own, or a time-ancestor's), and the index
 //          in their layer of the space level at hand.
-// Memory   20 bytes a node, 192 an opaque brick and 256 another (bricks.h); only the siblings
-//          on the way from the root of the time tree to the frame on display need be in
-//          memory (sec. 5.2.4).
+// Memory   4 or 20 bytes a node (linked_nodes.h), 192 an opaque brick and 256 another
+//          (bricks.h); only the siblings on the way from the root of the time tree to the
+//          frame on display need be in memory (sec. 5.2.4).
 // Source   sec. 5.2.1, Figures 5.2, 5.4; sec. 5.2.2 [up-links]; ERRATA of the project,
 //          video, "Lossy bound".
 #pragma once
@@ -24,38 +24,22 @@
 #include "engine/video/bricks.h"
 #include "engine/video/clip_shape.h"
 #include "engine/video/image_tree.h"
+#include "engine/video/linked_nodes.h"
 
 namespace haarmony::video {
 
-enum class Ref : std::uint32_t {};
-inline constexpr Ref kNoDetailRef{kNoDetail};
-inline constexpr int kRefIndexBits = 27;
-inline constexpr std::uint32_t kMaxRefIndex = (1U << kRefIndexBits) - 2;
-
-[[nodiscard]] constexpr Ref make_ref(int time_level, std::uint32_t index) {
-    return Ref{static_cast<std::uint32_t>(time_level) << kRefIndexBits | index};
-}
-[[nodiscard]] constexpr int time_level_of(Ref ref) {
-    return static_cast<int>(static_cast<std::uint32_t>(ref) >> kRefIndexBits);
-}
-[[nodiscard]] constexpr std::uint32_t index_of(Ref ref) {
-    return static_cast<std::uint32_t>(ref) & ((1U << kRefIndexBits) - 1);
-}
-
-struct LinkedNode {
-    Ref brick = kNoDetailRef;  // never kNoDetailRef in a finished layer
-    std::array<Ref, 4> child = {kNoDetailRef, kNoDetailRef, kNoDetailRef, kNoDetailRef};
-
-    friend bool operator==(const LinkedNode&, const LinkedNode&) = default;
-};
-
 // The own nodes and bricks of two siblings at one space level.
 struct Layer {
-    std::vector<LinkedNode> nodes;
+    LinkedNodes nodes;
     Bricks bricks;
 
+    // Once it is finished: takes as little memory as it can.
+    void compact() {
+        nodes.compact();
+        bricks.shrink_to_fit();
+    }
     [[nodiscard]] std::size_t memory_bytes() const {
-        return nodes.size() * sizeof(LinkedNode) + bricks.memory_bytes();
+        return nodes.memory_bytes() + bricks.memory_bytes();
     }
     friend bool operator==(const Layer&, const Layer&) = default;
 };

@@ -16,7 +16,7 @@ namespace haarmony::video {
 struct LayerChain {
     std::vector<std::vector<Layer>> layers;
 
-    [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
+    [[nodiscard]] LinkedNode node(int level, Ref ref) const {
         return layer(level, ref).nodes[index_of(ref)];
     }
     [[nodiscard]] Brick brick(int level, Ref ref) const {

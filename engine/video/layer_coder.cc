@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -60,15 +61,18 @@ class LayerCoding {
 
     template <typename Io>
     void code_node(Io& io, LinkedNode& node, const Placed* place) {
-        const LinkedNode* parent = known(place == nullptr ? Shown{} : place->parent);
-        const LinkedNode* first = known(place == nullptr ? Shown{} : place->first);
-        const LinkedNode* other = known(place == nullptr ? Shown{} : place->other_edge);
+        const std::optional<LinkedNode> parent =
+            known(place == nullptr ? Shown{} : place->parent);
+        const std::optional<LinkedNode> first =
+            known(place == nullptr ? Shown{} : place->first);
+        const std::optional<LinkedNode> other =
+            known(place == nullptr ? Shown{} : place->other_edge);
         const auto candidates = [&](Ref next, auto member) {
             Candidates made = kNoCandidates;
             made[kNext] = next;
-            if (parent != nullptr) made[kOfParent] = member(*parent);
-            if (first != nullptr) made[kOfFirst] = member(*first);
-            if (other != nullptr) made[kOfOtherEdge] = member(*other);
+            if (parent) made[kOfParent] = member(*parent);
+            if (first) made[kOfFirst] = member(*first);
+            if (other) made[kOfOtherEdge] = member(*other);
             return made;
         };
         io.code(node.brick,
@@ -107,10 +111,10 @@ class LayerCoding {
         return shown.level == level_ && time_level_of(shown.node) == own_;
     }
     // The node of this level at a place, if it is decoded.
-    [[nodiscard]] const LinkedNode* known(const Shown& shown) const {
-        if (!shown.any() || shown.level != level_) return nullptr;
-        if (is_own(shown) && !node_known_[index_of(shown.node)]) return nullptr;
-        return &at_.node(level_, shown.node);
+    [[nodiscard]] std::optional<LinkedNode> known(const Shown& shown) const {
+        if (!shown.any() || shown.level != level_) return std::nullopt;
+        if (is_own(shown) && !node_known_[index_of(shown.node)]) return std::nullopt;
+        return at_.node(level_, shown.node);
     }
     [[nodiscard]] const Brick* shown(const Shown& shown,
                                      int level,

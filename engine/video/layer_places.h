@@ -34,7 +34,7 @@ struct LayerSurroundings {
     [[nodiscard]] const Layer& layer(int time_level, int level) const {
         return *layers[time_level][level - kBrickLevel];
     }
-    [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
+    [[nodiscard]] LinkedNode node(int level, Ref ref) const {
         return layer(time_level_of(ref), level).nodes[index_of(ref)];
     }
     [[nodiscard]] Brick brick(int level, Ref ref) const {

@@ -14,8 +14,7 @@ Result<void> MemoryClip::Sink::add(Siblings siblings) {
     held.nodes = std::make_shared<const SiblingNodes>(siblings.nodes);
     held.layers.reserve(siblings.layers.size());
     for (Layer& layer : siblings.layers) {
-        layer.nodes.shrink_to_fit();
-        layer.bricks.shrink_to_fit();
+        layer.compact();
         held.layers.push_back(std::make_shared<const Layer>(std::move(layer)));
     }
     clip_->siblings_.insert_or_assign(

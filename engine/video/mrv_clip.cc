@@ -170,6 +170,7 @@ class MrvClip::Impl {
         const LayerSize& size = front_.index.chunk(row, ordinal).size;
         if (Result<void> done = decode_layer(*bytes, size, around, *decoded); !done)
             return in_chunk(ordinal, row, done.error().message);
+        decoded->compact();
         return DecodedCache::Decoded{decoded, decoded->memory_bytes() + sizeof(Layer)};
     }
 

@@ -17,7 +17,7 @@ bool NearMatch::shows(Ref shown, std::uint32_t node, int level) {
 
 bool NearMatch::compare(Ref shown, std::uint32_t node, int level) {
     const TreeNode& exact = frame_->nodes[node];
-    const LinkedNode& linked = chain_.node(level, shown);
+    const LinkedNode linked = chain_.node(level, shown);
     const Brick& exact_brick = frame_->bricks[exact.brick];
     const Brick& shown_brick = chain_.brick(level, linked.brick);
     if (!within(exact_brick, shown_brick, delta_)) return false;
@@ -54,7 +54,7 @@ bool NearMatch::flat(const Brick& enlarged, std::uint32_t node) const {
 }
 
 bool NearMatch::flat(Ref shown, const Brick& enlarged, int level) const {
-    const LinkedNode& linked = chain_.node(level, shown);
+    const LinkedNode linked = chain_.node(level, shown);
     if (!within(chain_.brick(level, linked.brick), enlarged, delta_)) return false;
     for (int q = 0; q < 4; ++q) {
         const Ref below = linked.child[static_cast<std::size_t>(q)];

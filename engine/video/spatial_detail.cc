@@ -30,7 +30,7 @@ class Search {
     // (x, y) counts the bricks of level `at`.
     [[nodiscard]] bool below(int at, Ref ref, std::int32_t x, std::int32_t y) const {
         if (at == frame_.shape().space_levels()) return false;
-        const LinkedNode& node = frame_.node(at, ref);
+        const LinkedNode node = frame_.node(at, ref);
         for (std::int32_t q = 0; q < 4; ++q) {
             const Ref child = node.child[static_cast<std::size_t>(q)];
             const std::int32_t child_x = 2 * x + (q & 1);
@@ -86,7 +86,7 @@ class Search {
             return frame_.apex(
                 Edge::kNormalize)[static_cast<std::size_t>(apex_offset(at)) + pixel];
         }
-        const LinkedNode& root = frame_.node(kBrickLevel, frame_.root(Edge::kNormalize));
+        const LinkedNode root = frame_.node(kBrickLevel, frame_.root(Edge::kNormalize));
         return frame_.brick(kBrickLevel, root.brick)[pixel];
     }
 

@@ -24,8 +24,7 @@ Frame::Frame(const ClipShape& shape,
     tables_.reserve(levels * chain_.size());
     for (std::size_t level = 0; level < levels; ++level) {
         for (const std::vector<LayerPtr>& layers : chain_) {
-            const Layer& layer = *layers[level];
-            tables_.push_back({layer.nodes.data(), &layer.bricks});
+            tables_.push_back(layers[level].get());
         }
     }
 }

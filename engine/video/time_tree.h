@@ -49,21 +49,21 @@ class Frame {
         return time_node().apex[static_cast<std::size_t>(edge)];
     }
     // Requires: kBrickLevel <= level <= space_level(), a ref of that level of this frame.
-    [[nodiscard]] const LinkedNode& node(int level, Ref ref) const {
-        return tables_[row(level, ref)].nodes[index_of(ref)];
+    [[nodiscard]] LinkedNode node(int level, Ref ref) const {
+        return tables_[row(level, ref)]->nodes[index_of(ref)];
+    }
+    // The brick of a node, held as it is.
+    [[nodiscard]] PackedBrick brick_of(int level, Ref node) const {
+        return packed(level, tables_[row(level, node)]->nodes.brick(index_of(node)));
     }
     [[nodiscard]] Brick brick(int level, Ref ref) const {
-        return (*tables_[row(level, ref)].bricks)[index_of(ref)];
+        return tables_[row(level, ref)]->bricks[index_of(ref)];
     }
     [[nodiscard]] PackedBrick packed(int level, Ref ref) const {
-        return tables_[row(level, ref)].bricks->packed(index_of(ref));
+        return tables_[row(level, ref)]->bricks.packed(index_of(ref));
     }
 
   private:
-    struct Table {
-        const LinkedNode* nodes = nullptr;
-        const Bricks* bricks = nullptr;
-    };
     [[nodiscard]] std::size_t row(int level, Ref ref) const {
         return static_cast<std::size_t>((level - kBrickLevel) * (stored_.time_level + 1) +
                                         time_level_of(ref));
@@ -75,7 +75,7 @@ class Frame {
     int space_level_ = 0;
     Nodes nodes_;
     std::vector<std::vector<LayerPtr>> chain_;
-    std::vector<Table> tables_;  // by space level, then time level
+    std::vector<const Layer*> tables_;  // by space level, then time level
 };
 
 class TimeTree {

@@ -100,8 +100,8 @@ class Survey {
         if (above == ref) return 0;
         ++timeline_.nodes_visited;
         const int square_level = level - kBrickLevel;
-        const LinkedNode& old_node = parent.node(level, above);
-        const LinkedNode& new_node = frame.node(level, ref);
+        const LinkedNode old_node = parent.node(level, above);
+        const LinkedNode new_node = frame.node(level, ref);
         if (level == space_level_) {
             return old_node == new_node ? 0 : area(square_level, x, y);
         }
@@ -126,7 +126,8 @@ class Survey {
         ++timeline_.nodes_visited;
         ++detail.squares;
         detail.deepest_level = std::max(detail.deepest_level, level);
-        for (const Ref child : frame.node(level, ref).child) {
+        const LinkedNode node = frame.node(level, ref);
+        for (const Ref child : node.child) {
             if (child == kNoDetailRef) continue;
             if (level < space_level_) {
                 count(frame, child, level + 1, detail);

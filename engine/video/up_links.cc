@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <string>
 
 #include "engine/video/brick_match.h"
@@ -80,15 +81,16 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
         return resolved = above;
     }
     const TreeNode& exact = frame.nodes[index];
-    const LinkedNode* const shown =
-        above == kNoDetailRef ? nullptr : &chain_.node(level, above);
+    std::optional<LinkedNode> shown;
+    if (above != kNoDetailRef) shown = chain_.node(level, above);
     if (level == finest_) {
         const Brick& brick = frame.bricks[exact.brick];
-        const bool linked = shown != nullptr && chain_.equals(level, shown->brick, brick);
+        const bool linked = shown && chain_.equals(level, shown->brick, brick);
         return resolved = linked ? above : own_finest(brick);
     }
     LinkedNode made;
-    made.brick = brick_for(frame.bricks[exact.brick], level, shown);
+    made.brick =
+        brick_for(frame.bricks[exact.brick], level, shown ? shown->brick : kNoDetailRef);
     if (made.brick == kNoDetailRef) return kNoDetailRef;
     Brick displayed;
     if (delta_ > 0) displayed = chain_.brick(level, made.brick);
@@ -97,20 +99,20 @@ Ref UpLinks::resolve(const ExactFrame& frame, std::uint32_t index, int level, Re
         const std::uint32_t below = exact.child[quadrant];
         if (below == kNoDetail) continue;
         if (delta_ > 0 && near_.flat(displayed, q, below)) continue;
-        const Ref above_below = shown == nullptr ? kNoDetailRef : shown->child[quadrant];
+        const Ref above_below = !shown ? kNoDetailRef : shown->child[quadrant];
         made.child[quadrant] = resolve(frame, below, level + 1, above_below);
         if (made.child[quadrant] == kNoDetailRef) return kNoDetailRef;
     }
-    if (shown != nullptr && made == *shown) return resolved = above;
+    if (shown && made == *shown) return resolved = above;
     return resolved = own(made, level);
 }
 
-Ref UpLinks::brick_for(const Brick& exact, int level, const LinkedNode* above) {
+Ref UpLinks::brick_for(const Brick& exact, int level, Ref above) {
     const auto shown = [&] {
-        return delta_ == 0 ? chain_.equals(level, above->brick, exact)
-                           : within(exact, chain_.brick(level, above->brick), delta_);
+        return delta_ == 0 ? chain_.equals(level, above, exact)
+                           : within(exact, chain_.brick(level, above), delta_);
     };
-    if (above != nullptr && shown()) return above->brick;
+    if (above != kNoDetailRef && shown()) return above;
     return own(exact, level);
 }
 

@@ -51,7 +51,8 @@ class UpLinks {
   private:
     // The node that stands for node `index` of the frame, whose time-parent has `above`.
     Ref resolve(const ExactFrame& frame, std::uint32_t index, int level, Ref above);
-    Ref brick_for(const Brick& exact, int level, const LinkedNode* above);
+    // `above` is the brick that the time-parent shows, if any.
+    Ref brick_for(const Brick& exact, int level, Ref above);
     Ref own(const Brick& brick, int level);
     Ref own(const LinkedNode& node, int level);
     // Of the finest level, where a node is its brick: one look-up instead of two.

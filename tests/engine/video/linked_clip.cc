@@ -67,7 +67,7 @@ class Linking {
     }
 
   private:
-    [[nodiscard]] const LinkedNode& linked(int level, Ref ref) const {
+    [[nodiscard]] LinkedNode linked(int level, Ref ref) const {
         return path_[static_cast<std::size_t>(time_level_of(ref))]
             .layers[static_cast<std::size_t>(level - kBrickLevel)]
             .nodes[index_of(ref)];

@@ -56,7 +56,7 @@ TEST(MemoryClip, CountsItsNodesBricksAndTimeNodes) {
     ASSERT_TRUE(sink.add(siblings(1, 0, 2)).has_value());
     ASSERT_TRUE(sink.finish().has_value());
     EXPECT_EQ(sink.take()->memory_bytes(),
-              3 * sizeof(TimeNode) + 4 * (3 * sizeof(LinkedNode) + 3 * kBrickPixels));
+              3 * sizeof(TimeNode) + 4 * (3 * sizeof(Ref) + 3 * kBrickPixels));
 }
 
 TEST(MemoryClip, AFrameOutlivesTheClip) {

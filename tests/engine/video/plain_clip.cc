@@ -71,16 +71,16 @@ Ref add_tree(const RawClip& clip,
                                   static_cast<int>(by) * kBrickSide + i / kBrickSide);
                 }
                 layers[depth].bricks.push_back(brick);
-                LinkedNode& node = layers[depth].nodes.emplace_back();
+                LinkedNode node;
                 node.brick =
                     make_ref(time_level,
                              static_cast<std::uint32_t>(layers[depth].bricks.size() - 1));
-                if (depth + 1 == layers.size()) continue;
-                for (std::uint32_t q = 0; q < 4; ++q) {
+                for (std::uint32_t q = 0; q < 4 && depth + 1 < layers.size(); ++q) {
                     const std::uint32_t x = 2 * bx + (q & 1), y = 2 * by + (q >> 1);
                     node.child[q] =
                         make_ref(time_level, begin[depth + 1] + y * 2 * side + x);
                 }
+                layers[depth].nodes.push_back(node);
             }
         }
     }

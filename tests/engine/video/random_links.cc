@@ -102,7 +102,9 @@ class Maker {
             return made;
         };
         for (std::size_t level = 0; level < levels_; ++level) {
-            for (LinkedNode& node : own.layers[level].nodes) {
+            LinkedNodes& nodes = own.layers[level].nodes;
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                LinkedNode& node = nodes[i];
                 node.brick = any(counts(level, false));
                 for (Ref& child : node.child) {
                     if (level + 1 < levels_ && below(4) != 0)
