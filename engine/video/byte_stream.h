@@ -65,6 +65,12 @@ class ByteReader {
         fail();
         return 0;
     }
+    // Requires: no more than rest() has.
+    [[nodiscard]] std::span<const std::byte> take(std::size_t bytes) {
+        const std::span<const std::byte> taken = rest_.first(bytes);
+        rest_ = rest_.subspan(bytes);
+        return taken;
+    }
     [[nodiscard]] bool overrun() const { return overrun_; }
     [[nodiscard]] std::span<const std::byte> rest() const { return rest_; }
 

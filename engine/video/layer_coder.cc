@@ -1,7 +1,9 @@
 #include "engine/video/layer_coder.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,20 +15,19 @@
 namespace haarmony::video {
 namespace {
 
+// A node's brick and its children.
+constexpr std::uint64_t kNodeRefs = 5;
+
 // The order in which a layer's nodes and bricks are coded, and what is known at each.
 class LayerCoding {
   public:
-    // `bricks` are the layer's own, as far as they are known.
-    LayerCoding(const LayerSurroundings& surroundings,
-                const LayerSize& size,
-                std::span<const Brick> bricks)
+    LayerCoding(const LayerSurroundings& surroundings, const LayerSize& size)
         : at_(surroundings),
           level_(surroundings.space_level),
           own_(surroundings.address.time_level),
-          own_bricks_(bricks),
           places_(places(surroundings)),
           node_known_(size.nodes),
-          brick_known_(size.bricks) {}
+          bricks_of_layer_(size.bricks) {}
 
     // f(node, place) for every node, until it says false; place is null for one that is
     // shown nowhere.
@@ -34,28 +35,28 @@ class LayerCoding {
     void each_node(F&& f) {
         for (const Placed& place : places_) {
             if (!f(place.node, &place)) return;
-            node_known_[place.node] = true;
+            node_known_[place.node] = 1;
         }
         for (std::uint32_t node = 0; node < node_known_.size(); ++node) {
             if (node_known_[node]) continue;
             if (!f(node, nullptr)) return;
-            node_known_[node] = true;
+            node_known_[node] = 1;
         }
     }
 
-    // f(brick, place) in the same way; once all nodes are known.
+    // f(brick, place) for every brick by index, in the same way; once all nodes are known. A
+    // brick's place is the first in the walk.
     template <typename F>
     void each_brick(F&& f) {
+        std::vector<const Placed*> first(bricks_of_layer_, nullptr);
+        const std::vector<LinkedNode>& nodes = at_.layer(own_, level_).nodes;
         for (const Placed& place : places_) {
-            const Ref ref = at_.layer(own_, level_).nodes[place.node].brick;
-            if (time_level_of(ref) != own_ || brick_known_[index_of(ref)]) continue;
-            if (!f(index_of(ref), &place)) return;
-            brick_known_[index_of(ref)] = true;
+            const Ref ref = nodes[place.node].brick;
+            if (time_level_of(ref) == own_ && first[index_of(ref)] == nullptr)
+                first[index_of(ref)] = &place;
         }
-        for (std::uint32_t brick = 0; brick < brick_known_.size(); ++brick) {
-            if (brick_known_[brick]) continue;
-            if (!f(brick, nullptr)) return;
-            brick_known_[brick] = true;
+        for (known_bricks_ = 0; known_bricks_ < bricks_of_layer_; ++known_bricks_) {
+            if (!f(known_bricks_, first[known_bricks_])) return;
         }
     }
 
@@ -77,31 +78,39 @@ class LayerCoding {
         };
         io.code(node.brick,
                 candidates(bricks_.next(), [](const LinkedNode& n) { return n.brick; }),
-                kBrickRefContext,
                 bricks_);
         if (level_ == at_.finest_level) return;
         for (std::size_t q = 0; q < 4; ++q) {
             io.code(node.child[q],
                     candidates(children_.next(),
                                [q](const LinkedNode& n) { return n.child[q]; }),
-                    kChildRefContext,
                     children_);
         }
     }
 
-    [[nodiscard]] const BrickNeighbors& neighbors(const Placed* place) {
+    // What is around a brick, all that the reference needs or, without one, all that there is.
+    [[nodiscard]] const BrickNeighbors& neighbors(const Placed* place,
+                                                  const Reference* reference) {
         neighbors_ = {};
         if (place == nullptr) return neighbors_;
+        const auto wanted = [reference](std::initializer_list<Reference> by) {
+            return reference == nullptr ||
+                   std::find(by.begin(), by.end(), *reference) != by.end();
+        };
+        using enum Reference;
         const std::int32_t x = place->x;
         const std::int32_t y = place->y;
-        neighbors_.parent = shown(place->parent, level_, x, y, 0);
-        neighbors_.first = shown(place->first, level_, x, y, 1);
-        neighbors_.other_edge = shown(place->other_edge, level_, x, y, 2);
-        neighbors_.left = shown(place->left, level_, x - 1, y, 3);
-        neighbors_.above = shown(place->above, level_, x, y - 1, 4);
-        neighbors_.coarse = shown(place->coarse, level_ - 1, x / 2, y / 2, 5);
-        neighbors_.parent_coarse =
-            shown(place->parent_coarse, level_ - 1, x / 2, y / 2, 6);
+        if (wanted({kParent, kMirror, kParentCoarse}))
+            neighbors_.parent = shown(place->parent, level_, x, y, 0);
+        if (wanted({kMirror})) neighbors_.first = shown(place->first, level_, x, y, 1);
+        if (wanted({kOtherEdge}))
+            neighbors_.other_edge = shown(place->other_edge, level_, x, y, 2);
+        if (wanted({kCoarse, kParentCoarse}))
+            neighbors_.coarse = shown(place->coarse, level_ - 1, x / 2, y / 2, 3);
+        if (wanted({kParentCoarse})) {
+            neighbors_.parent_coarse =
+                shown(place->parent_coarse, level_ - 1, x / 2, y / 2, 4);
+        }
         neighbors_.quadrant = (x & 1) + 2 * (y & 1);
         return neighbors_;
     }
@@ -123,14 +132,15 @@ class LayerCoding {
                                      std::size_t buffer) {
         if (!shown.any()) return nullptr;
         const Ref ref = at_.node(shown.level, shown.node).brick;
-        if (shown.level == level_ && time_level_of(ref) == own_) {
-            return brick_known_[index_of(ref)] ? &own_bricks_[index_of(ref)] : nullptr;
-        }
+        const bool own = shown.level == level_ && time_level_of(ref) == own_;
+        if (own && index_of(ref) >= known_bricks_) return nullptr;
         Brick& brick = around_[buffer];
-        brick = at_.brick(shown.level, ref);
-        if (shown.level < level) {
-            const Brick coarser = brick;
-            enlarge(coarser, level - shown.level, x, y, brick);
+        const Bricks& bricks = at_.layer(time_level_of(ref), shown.level).bricks;
+        if (shown.level == level) {
+            bricks.get(index_of(ref), brick);
+        } else {
+            bricks.get(index_of(ref), coarser_);
+            enlarge(coarser_, level - shown.level, x, y, brick);
         }
         return &brick;
     }
@@ -138,14 +148,15 @@ class LayerCoding {
     const LayerSurroundings& at_;
     int level_;
     int own_;
-    std::span<const Brick> own_bricks_;
     std::vector<Placed> places_;
-    std::vector<bool> node_known_;
-    std::vector<bool> brick_known_;
+    std::vector<std::uint8_t> node_known_;
+    std::uint32_t bricks_of_layer_;
+    std::uint32_t known_bricks_ = 0;
     RefSequence bricks_{own_};
     RefSequence children_{own_};
     BrickNeighbors neighbors_;
-    std::array<Brick, 7> around_;  // those that are not the layer's own
+    std::array<Brick, 5> around_;
+    Brick coarser_;
 };
 
 bool within(const LinkedNode& node,
@@ -193,30 +204,29 @@ Result<std::span<const std::byte>> without_padding(std::span<const std::byte> ch
     return in.rest().subspan(zeros);
 }
 
-std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings,
-                                    SymbolCosts& costs) {
+std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings) {
     const Layer& layer =
         surroundings.layer(surroundings.address.time_level, surroundings.space_level);
     const LayerSize size{static_cast<std::uint32_t>(layer.nodes.size()),
                          static_cast<std::uint32_t>(layer.bricks.size())};
     assert(!size.empty());
-    std::vector<Brick> own(size.bricks);
-    for (std::size_t i = 0; i < own.size(); ++i) layer.bricks.get(i, own[i]);
-    SymbolWriter symbols;
-    LayerCoding coding(surroundings, size, own);
-    PutRefs refs(symbols);
+    LayerCoding coding(surroundings, size);
+    PutRefs refs;
     coding.each_node([&](std::uint32_t node, const Placed* place) {
         LinkedNode copy = layer.nodes[node];
         coding.code_node(refs, copy, place);
         return true;
     });
-    BrickEncoder bricks(symbols, costs);
-    coding.each_brick([&](std::uint32_t brick, const Placed* place) {
-        bricks.put(own[brick], coding.neighbors(place));
+    BrickEncoder bricks;
+    Brick brick;
+    coding.each_brick([&](std::uint32_t index, const Placed* place) {
+        layer.bricks.get(index, brick);
+        bricks.put(brick, coding.neighbors(place, nullptr));
         return true;
     });
     std::vector<std::byte> chunk;
-    symbols.finish(chunk, costs);
+    refs.finish(chunk);
+    bricks.finish(chunk);
     put_padding(size.memory_bytes(), chunk);
     return chunk;
 }
@@ -227,31 +237,41 @@ Result<void> decode_layer(std::span<const std::byte> chunk,
                           Layer& layer) {
     const auto coded = without_padding(chunk, size.memory_bytes());
     if (!coded) return coded.error();
-    auto symbols = SymbolReader::open(*coded);
-    if (!symbols) return std::move(symbols).error();
+    StreamReader streams(*coded);
+    Result<TakeRefs> refs =
+        TakeRefs::open(streams, kNodeRefs * std::uint64_t{size.nodes});
+    if (!refs) return std::move(refs).error();
     layer.nodes.assign(size.nodes, {});
     layer.bricks.clear();
-    // They come in the order in which they are shown.
-    std::vector<Brick> own(size.bricks);
-    LayerCoding coding(surroundings, size, own);
-    TakeRefs refs(symbols->cursor());
+    LayerCoding coding(surroundings, size);
     Result<void> decoded;
     coding.each_node([&](std::uint32_t node, const Placed* place) {
-        coding.code_node(refs, layer.nodes[node], place);
-        if (!refs.damaged() && within(layer.nodes[node], surroundings, size)) return true;
+        coding.code_node(*refs, layer.nodes[node], place);
+        if (!(*refs).damaged() && within(layer.nodes[node], surroundings, size))
+            return true;
         decoded = damaged("refs of node " + std::to_string(node));
         return false;
     });
     if (!decoded) return decoded;
-    BrickDecoder bricks(symbols->cursor());
-    coding.each_brick([&](std::uint32_t brick, const Placed* place) {
-        decoded = bricks.next(own[brick], coding.neighbors(place));
-        return decoded.has_value();
+    Result<BrickDecoder> bricks = BrickDecoder::open(streams, size.bricks);
+    if (!bricks) return std::move(bricks).error();
+    layer.bricks.reserve(size.bricks);
+    Brick brick;
+    coding.each_brick([&](std::uint32_t index, const Placed* place) {
+        const std::uint8_t symbol = (*bricks).next_symbol();
+        const Reference reference = mode_of(symbol % kModeSymbols).reference;
+        const Result<void> read =
+            (*bricks).next(symbol, coding.neighbors(place, &reference), brick);
+        if (read) {
+            layer.bricks.push_back(brick);
+            return true;
+        }
+        decoded = damaged("brick " + std::to_string(index) + ": " + read.error().message);
+        return false;
     });
     if (!decoded) return decoded;
-    if (!symbols->at_end()) return damaged("symbols left over or missing");
-    layer.bricks.reserve(own.size());
-    for (const Brick& brick : own) layer.bricks.push_back(brick);
+    if (!(*refs).at_end() || !(*bricks).at_end() || !streams.at_end())
+        return damaged("streams left over or missing");
     return {};
 }
 

@@ -4,8 +4,8 @@
 //
 // Shape    MRV.md, "Chunks". Nodes and bricks keep their numbers.
 // Errors   decoding: kUndecodable; every ref of a decoded layer lies within its layer.
-//          Hostile bytes cost no more than kMostExpansion times their length, and while a
-//          layer is decoded twice that.
+//          Hostile bytes cost no more than kMostExpansion times their length for the layer,
+//          and at most one and a half times that beside it while it is decoded.
 // Source   sec. 5.5 [compressed without loss].
 #pragma once
 
@@ -16,7 +16,6 @@
 
 #include "engine/core/result.h"
 #include "engine/video/layer_places.h"
-#include "engine/video/symbol_coder.h"
 
 namespace haarmony::video {
 
@@ -37,10 +36,9 @@ struct LayerSize {
     friend bool operator==(const LayerSize&, const LayerSize&) = default;
 };
 
-// The chunk of the layer that surroundings.layer(time level, space level) holds; `costs` are
-// those of its space level, and learn. Requires: the layer is not empty.
-[[nodiscard]] std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings,
-                                                  SymbolCosts& costs);
+// The chunk of the layer that surroundings.layer(time level, space level) holds.
+// Requires: the layer is not empty.
+[[nodiscard]] std::vector<std::byte> encode_layer(const LayerSurroundings& surroundings);
 // The layer into `layer`, whose place in `surroundings` is the last.
 [[nodiscard]] Result<void> decode_layer(std::span<const std::byte> chunk,
                                         const LayerSize& size,

@@ -1,6 +1,7 @@
 #include "engine/video/layer_places.h"
 
 #include <cassert>
+#include <utility>
 
 namespace haarmony::video {
 namespace {
@@ -18,17 +19,18 @@ class Walk {
   private:
     int own() const { return at_.address.time_level; }
 
+    // Begins a level: none of its own nodes is placed.
+    void enter(int level) { seen_.assign(at_.layer(own(), level).nodes.size(), 0); }
+
     // Places a node unless it is an ancestor's, or placed already.
     bool takes(Ref ref) {
         if (ref == kNoDetailRef || time_level_of(ref) != own()) return false;
-        const std::uint32_t index = index_of(ref);
-        if (index >= seen_.size()) seen_.resize(index + 1);
-        if (seen_[index]) return false;
-        seen_[index] = true;
-        return true;
+        std::uint8_t& seen = seen_[index_of(ref)];
+        return std::exchange(seen, 1) == 0;
     }
 
     void roots() {
+        enter(kBrickLevel);
         for (int half = 0; half < at_.nodes->count; ++half) {
             const TimeNode& time_node = at_.nodes->node[half];
             for (int edge = 0; edge < kEdges; ++edge) {
@@ -45,35 +47,43 @@ class Walk {
         }
     }
 
-    // The node below quadrant q, or the same one where it has none.
-    Shown below(const Shown& shown, int level, int q) const {
-        if (!shown.any() || shown.level < level) return shown;
-        const Ref child = at_.node(level, shown.node).child[q];
-        return child == kNoDetailRef ? shown : Shown{child, level + 1};
+    // What shows the four quadrants of a place one level down: the children, or the same
+    // where there is none.
+    struct Below {
+        Shown over;
+        const LinkedNode* node = nullptr;
+
+        [[nodiscard]] Shown quadrant(int q, int level) const {
+            if (node == nullptr || node->child[q] == kNoDetailRef) return over;
+            return {node->child[q], level + 1};
+        }
+    };
+    [[nodiscard]] Below below(const Shown& over, int level) const {
+        if (!over.any() || over.level < level) return {over, nullptr};
+        return {over, &at_.node(level, over.node)};
     }
 
     void descend(int level) {
-        std::vector<Placed> above = std::move(placed_);
+        const std::vector<Placed> above = std::move(placed_);
         placed_.clear();
-        seen_.clear();
+        enter(level + 1);
+        placed_.reserve(seen_.size());
         for (const Placed& over : above) {
             const Shown self{make_ref(own(), over.node), level};
+            const LinkedNode& node = at_.node(level, self.node);
+            const Below parent = below(over.parent, level);
+            const Below first = below(over.first, level);
+            const Below other_edge = below(over.other_edge, level);
             for (int q = 0; q < 4; ++q) {
-                const Ref child = at_.node(level, self.node).child[q];
+                const Ref child = node.child[q];
                 if (!takes(child)) continue;
-                const int i = q & 1;
-                const int j = q >> 1;
                 Placed& placed = placed_.emplace_back();
                 placed.node = index_of(child);
-                placed.x = 2 * over.x + i;
-                placed.y = 2 * over.y + j;
-                placed.parent = below(over.parent, level, q);
-                placed.first = below(over.first, level, q);
-                placed.other_edge = below(over.other_edge, level, q);
-                placed.left =
-                    i == 1 ? below(self, level, q - 1) : below(over.left, level, q + 1);
-                placed.above =
-                    j == 1 ? below(self, level, q - 2) : below(over.above, level, q + 2);
+                placed.x = 2 * over.x + (q & 1);
+                placed.y = 2 * over.y + (q >> 1);
+                placed.parent = parent.quadrant(q, level);
+                placed.first = first.quadrant(q, level);
+                placed.other_edge = other_edge.quadrant(q, level);
                 placed.coarse = self;
                 placed.parent_coarse = over.parent;
             }
@@ -82,7 +92,7 @@ class Walk {
 
     const LayerSurroundings& at_;
     std::vector<Placed> placed_;
-    std::vector<bool> seen_;
+    std::vector<std::uint8_t> seen_;  // of the level at hand
 };
 
 }  // namespace

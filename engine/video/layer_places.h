@@ -55,11 +55,9 @@ struct Placed {
     std::uint32_t node = 0;  // index in the siblings' own layer
     std::int32_t x = 0;
     std::int32_t y = 0;
-    Shown parent;      // at the same place, in the time-parent
-    Shown first;       // in the first half, for a node of the second
-    Shown other_edge;  // in the padded tree, for a node of the normalised
-    Shown left;        // beside it, in its own tree
-    Shown above;
+    Shown parent;         // at the same place, in the time-parent
+    Shown first;          // in the first half, for a node of the second
+    Shown other_edge;     // in the padded tree, for a node of the normalised
     Shown coarse;         // one level up: its own parent
     Shown parent_coarse;  // one level up in the time-parent
 };

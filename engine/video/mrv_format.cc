@@ -221,7 +221,8 @@ Result<MrvFront> decode_front(std::span<const std::byte> file) {
     }
     if (version < kMrvVersion) {
         return Error{ErrorCode::kUnsupportedFormat,
-                     ".mrv file of version " + std::to_string(version)};
+                     ".mrv file of version " + std::to_string(version) +
+                         ", which is no longer read: upload the clip again"};
     }
     if (file.size() < kMrvHeaderBytes) return damaged("header cut off");
     FrameFormat format;

@@ -21,7 +21,7 @@
 
 namespace haarmony::video {
 
-inline constexpr std::uint32_t kMrvVersion = 1;
+inline constexpr std::uint32_t kMrvVersion = 2;
 inline constexpr std::size_t kMrvHeaderBytes = 96;
 
 // XXH3 of 64 bits, seed 0.

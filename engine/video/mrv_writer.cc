@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "engine/video/brick_coder.h"
 #include "engine/video/layer_coder.h"
 #include "engine/video/mrv_format.h"
 #include "engine/video/time_node_coder.h"
@@ -23,7 +22,6 @@ class MrvWriter::Impl {
             .shape = shape, .delta = delta, .index = {}, .file_bytes = 0, .revision = 0});
         chain_.clear();
         written_.clear();
-        costs_.assign(static_cast<std::size_t>(mrv_rows(shape)), first_costs());
     }
 
     Result<void> add(Siblings siblings) {
@@ -50,7 +48,7 @@ class MrvWriter::Impl {
             MrvChunk& chunk = chunks.emplace_back();
             if (size.empty()) continue;
             if (Result<void> put =
-                    put_chunk(encode_layer(surroundings(row), costs_[row]), size, chunk);
+                    put_chunk(encode_layer(surroundings(row)), size, chunk);
                 !put) {
                 return put;
             }
@@ -113,7 +111,7 @@ class MrvWriter::Impl {
                                     .address = chain_.back().address,
                                     .time_parent = time_parent(),
                                     .root_nodes = {}};
-        return encode_time_nodes(chain_.back().nodes, around, costs_[0]);
+        return encode_time_nodes(chain_.back().nodes, around);
     }
 
     [[nodiscard]] LayerSurroundings surroundings(std::size_t row) const {
@@ -150,7 +148,6 @@ class MrvWriter::Impl {
     std::optional<MrvFront> front_;
     std::vector<Siblings> chain_;  // from the root of the time tree to the last added
     std::map<std::pair<int, std::int64_t>, std::vector<MrvChunk>> written_;
-    std::vector<SymbolCosts> costs_;
 };
 
 MrvWriter::MrvWriter(Spool& waiting, Spool& file)

@@ -3,42 +3,58 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 
-#include "engine/video/brick_prediction.h"
 #include "engine/video/ref_coder.h"
 
 namespace haarmony::video {
 namespace {
 
 enum BoundsKind : std::uint8_t { kBoundsOfParent, kBoundsOfFirst, kBoundsCoded };
-constexpr int kBoundsKindContext = kBoundsContext + 4;
+// A kind, bounds and all pixels, of two halves.
+constexpr std::uint64_t kMostBytes = 2 * (1 + 16 + kEdges * kApexPixels * 4);
 
-class PutSymbols {
+class Put {
   public:
-    explicit PutSymbols(SymbolWriter& symbols) : refs(symbols), symbols_(symbols) {}
-    void byte(int context, std::uint8_t& value) { symbols_.put(0, context, value); }
-    void residual(int context, int predicted, std::uint8_t& value) {
-        symbols_.put(0, context, residual_symbol(value - predicted));
+    void byte(std::uint8_t& value) { bytes_.push_back(value); }
+    void residual(int predicted, std::uint8_t& value) {
+        bytes_.push_back(static_cast<std::uint8_t>(value - predicted));
+    }
+    std::vector<std::byte> finish() {
+        std::vector<std::byte> chunk;
+        refs.finish(chunk);
+        put_stream(bytes_, Redundancy::kFrequent, chunk);
+        return chunk;
     }
     PutRefs refs;
 
   private:
-    SymbolWriter& symbols_;
+    Stream bytes_;
 };
 
-class TakeSymbols {
+// Past the end of the bytes are zeros.
+class Take {
   public:
-    explicit TakeSymbols(SymbolCursor& symbols) : refs(symbols), symbols_(symbols) {}
-    void byte(int context, std::uint8_t& value) { value = symbols_.next<0>(context); }
-    void residual(int context, int predicted, std::uint8_t& value) {
-        value =
-            static_cast<std::uint8_t>(predicted + residual_of(symbols_.next<0>(context)));
+    Take(TakeRefs taken, Stream bytes)
+        : refs(std::move(taken)), bytes_(std::move(bytes)) {}
+    void byte(std::uint8_t& value) { value = next(); }
+    void residual(int predicted, std::uint8_t& value) {
+        value = static_cast<std::uint8_t>(predicted + next());
     }
+    [[nodiscard]] bool at_end() const { return refs.at_end() && next_ == bytes_.size(); }
     TakeRefs refs;
 
   private:
-    SymbolCursor& symbols_;
+    std::uint8_t next() {
+        const std::size_t at = next_++;
+        return at < bytes_.size() ? bytes_[at] : 0;
+    }
+
+    Stream bytes_;
+    std::size_t next_ = 0;
 };
+
+constexpr int clamped(int value) { return std::min(std::max(value, 0), 255); }
 
 // What a pixel of the apex is enlarged to: one level up.
 constexpr int pixel_above(int pixel) {
@@ -84,7 +100,7 @@ void code_bounds(Io& io, Bounds& bounds, const Around& around) {
         around.parent != nullptr && bounds == around.parent->bounds ? kBoundsOfParent
         : around.first != nullptr && bounds == around.first->bounds ? kBoundsOfFirst
                                                                     : kBoundsCoded;
-    io.byte(kBoundsKindContext, kind);
+    io.byte(kind);
     if (kind == kBoundsOfParent && around.parent != nullptr) {
         bounds = around.parent->bounds;
     } else if (kind == kBoundsOfFirst && around.first != nullptr) {
@@ -96,7 +112,7 @@ void code_bounds(Io& io, Bounds& bounds, const Around& around) {
             std::uint32_t coded = 0;
             for (int i = 0; i < 4; ++i) {
                 auto byte = static_cast<std::uint8_t>(bits >> 8 * i);
-                io.byte(kBoundsContext + i, byte);
+                io.byte(byte);
                 coded |= std::uint32_t{byte} << 8 * i;
             }
             *side = static_cast<std::int32_t>(coded);
@@ -112,23 +128,22 @@ void code_node(Io& io, TimeNode& node, const Around& around, RefSequence& roots)
         if (around.parent != nullptr) candidates[kOfParent] = around.parent->root[edge];
         if (around.first != nullptr) candidates[kOfFirst] = around.first->root[edge];
         if (edge == 1) candidates[kOfOtherEdge] = node.root[0];
-        io.refs.code(node.root[edge], candidates, kRootContext, roots);
+        io.refs.code(node.root[edge], candidates, roots);
     }
     code_bounds(io, node.bounds, around);
     for (int edge = 0; edge < kEdges; ++edge) {
-        const int context = kApexContext + 2 * edge;
         for (int pixel = 0; pixel < kApexPixels; ++pixel) {
             const Rgba from = predicted(around, node, edge, pixel);
             Rgba& value = node.apex[edge][pixel];
-            io.residual(context + 1, from.a, value.a);
+            io.residual(from.a, value.a);
             if (value.a == 0) {
                 value = kClear;
                 continue;
             }
-            io.residual(context, from.g, value.g);
+            io.residual(from.g, value.g);
             const int follow = value.g - from.g;
-            io.residual(context, clamped(from.r + follow), value.r);
-            io.residual(context, clamped(from.b + follow), value.b);
+            io.residual(clamped(from.r + follow), value.r);
+            io.residual(clamped(from.b + follow), value.b);
         }
     }
 }
@@ -166,26 +181,25 @@ int sibling_count(const ClipShape& shape, const SiblingAddress& address) {
 }
 
 std::vector<std::byte> encode_time_nodes(const SiblingNodes& nodes,
-                                         const TimeNodeSurroundings& surroundings,
-                                         SymbolCosts& costs) {
+                                         const TimeNodeSurroundings& surroundings) {
     assert(nodes.count == sibling_count(surroundings.shape, surroundings.address));
-    SymbolWriter symbols;
-    PutSymbols io(symbols);
+    Put io;
     SiblingNodes copy = nodes;
     code_nodes(io, copy, surroundings);
-    std::vector<std::byte> chunk;
-    symbols.finish(chunk, costs);
-    return chunk;
+    return io.finish();
 }
 
 Result<void> decode_time_nodes(std::span<const std::byte> chunk,
                                const TimeNodeSurroundings& surroundings,
                                SiblingNodes& nodes) {
-    auto symbols = SymbolReader::open(chunk);
-    if (!symbols) return std::move(symbols).error();
+    StreamReader streams(chunk);
+    Result<TakeRefs> refs = TakeRefs::open(streams, 2 * kEdges);
+    if (!refs) return std::move(refs).error();
+    Result<Stream> bytes = streams.next(kMostBytes);
+    if (!bytes) return std::move(bytes).error();
     nodes = {};
     nodes.count = sibling_count(surroundings.shape, surroundings.address);
-    TakeSymbols io(symbols->cursor());
+    Take io(*std::move(refs), *std::move(bytes));
     code_nodes(io, nodes, surroundings);
     for (int half = 0; half < nodes.count; ++half) {
         if (io.refs.damaged() || !within(nodes.node[half], surroundings)) {
@@ -193,8 +207,8 @@ Result<void> decode_time_nodes(std::span<const std::byte> chunk,
                          "roots or bounds of half " + std::to_string(half)};
         }
     }
-    if (!symbols->at_end()) {
-        return Error{ErrorCode::kUndecodable, "symbols left over or missing"};
+    if (!io.at_end() || !streams.at_end()) {
+        return Error{ErrorCode::kUndecodable, "streams left over or missing"};
     }
     return {};
 }

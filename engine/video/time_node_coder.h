@@ -1,6 +1,6 @@
 // The time nodes of two siblings as the bytes of one chunk: roots, bounds, and the three
 // coarsest space levels.
-//   symbol_coder.h -> [time_node_coder.h] -> mrv_writer.h, mrv_clip.h
+//   ref_coder.h -> [time_node_coder.h] -> mrv_writer.h, mrv_clip.h
 //
 // Shape    MRV.md, "Time nodes".
 // Errors   decoding: kUndecodable; roots lie within their layers, bounds within the picture.
@@ -13,7 +13,6 @@
 
 #include "engine/core/result.h"
 #include "engine/video/layer.h"
-#include "engine/video/symbol_coder.h"
 
 namespace haarmony::video {
 
@@ -31,8 +30,7 @@ struct TimeNodeSurroundings {
 
 [[nodiscard]] std::vector<std::byte> encode_time_nodes(
     const SiblingNodes& nodes,
-    const TimeNodeSurroundings& surroundings,
-    SymbolCosts& costs);
+    const TimeNodeSurroundings& surroundings);
 [[nodiscard]] Result<void> decode_time_nodes(std::span<const std::byte> chunk,
                                              const TimeNodeSurroundings& surroundings,
                                              SiblingNodes& nodes);

@@ -34,6 +34,15 @@ TEST(ByteStream, ZigzagKeepsSmallNumbersSmall) {
     EXPECT_EQ(zigzag(-64), 127U);
 }
 
+TEST(ByteStream, BytesAreTakenFromTheFront) {
+    const std::array<std::byte, 3> bytes{std::byte{5}, std::byte{6}, std::byte{7}};
+    ByteReader in(bytes);
+    EXPECT_EQ(in.take(2).data(), bytes.data());
+    EXPECT_EQ(in.varint(), 7U);
+    EXPECT_TRUE(in.take(0).empty());
+    EXPECT_FALSE(in.overrun());
+}
+
 TEST(ByteStream, ReadingPastTheEndIsNoticed) {
     const std::array<std::byte, 3> bytes{
         std::byte{0x81}, std::byte{0x80}, std::byte{0x80}};

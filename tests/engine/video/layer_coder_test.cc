@@ -72,8 +72,7 @@ Result<void> decoded(const Setting& setting,
 }
 
 std::vector<std::byte> encoded(const Setting& setting, int level, const Layer& layer) {
-    SymbolCosts costs = first_costs();
-    return encode_layer(setting.at(level, layer), costs);
+    return encode_layer(setting.at(level, layer));
 }
 
 TEST(LayerCoder, LayersComeBack) {
@@ -141,6 +140,25 @@ TEST(LayerCoder, OtherSizesThanTheChunksAreRefused) {
     }
 }
 
+// Coding order is the order of the bricks' numbers: what a brick is predicted from comes before
+// it, wherever it is shown.
+TEST(LayerCoder, BricksShownInAnyOrderComeBack) {
+    Setting setting;
+    std::swap(setting.own[0].nodes[0].brick, setting.own[0].nodes[1].brick);
+    const Layer& layer = setting.own[0];
+    Layer back;
+    const Result<void> done = decoded(setting, 3, encoded(setting, 3, layer), kTwo, back);
+    ASSERT_TRUE(done.has_value()) << done.error().message;
+    EXPECT_EQ(back, layer);
+}
+
+TEST(LayerCoder, ChunksAreTheSameWhateverWasCodedBefore) {
+    const Setting setting;
+    const std::vector<std::byte> alone = encoded(setting, 4, setting.own[1]);
+    (void)encoded(setting, 3, setting.own[0]);
+    EXPECT_EQ(encoded(setting, 4, setting.own[1]), alone);
+}
+
 TEST(LayerCoder, MoreThanAChunkCanHoldIsNotAllocated) {
     const Setting setting;
     const std::vector<std::byte> chunk = encoded(setting, 4, setting.own[1]);
@@ -165,23 +183,102 @@ TEST(LayerCoder, PaddingIsAsLongAsExpansionAsksFor) {
     EXPECT_EQ(cut.error().message, "padding cut off");
 }
 
-TEST(RefCoder, KindsThatAreNoneAreDamage) {
-    for (const std::uint8_t kind : {std::uint8_t{5}, std::uint8_t{6}}) {
-        SymbolWriter symbols;
-        symbols.put(0, kRootContext, kind);
-        for (int i = 0; i < kExplicitBytes; ++i)
-            symbols.put(0, kExplicitContext + i, i == 4 ? 3 : 0);
-        std::vector<std::byte> bytes;
-        SymbolCosts costs = first_costs();
-        symbols.finish(bytes, costs);
-        Result<SymbolReader> reader = SymbolReader::open(bytes);
-        ASSERT_TRUE(reader.has_value());
-        TakeRefs refs((*reader).cursor());
-        RefSequence sequence(2);  // three levels up from level 2 there is nothing
-        Ref ref{};
-        refs.code(ref, kNoCandidates, kRootContext, sequence);
-        EXPECT_TRUE(refs.damaged());
+// The chunk of a layer at level 4 whose bricks have these modes and no residuals.
+std::vector<std::byte> chunk_of_modes(const Setting& setting, const Stream& modes) {
+    // Refs as a writer puts them; the rest anew.
+    const std::vector<std::byte> whole = encoded(setting, 4, setting.own[1]);
+    const auto body = without_padding(whole, kTwo.memory_bytes());
+    EXPECT_TRUE(body.has_value());
+    StreamReader streams(*body);
+    std::vector<std::byte> chunk;
+    for (int i = 0; i < 2; ++i) {
+        const Result<Stream> refs = streams.next(1000);
+        EXPECT_TRUE(refs.has_value());
+        put_stream(*refs, Redundancy::kRepeated, chunk);
     }
+    put_stream(modes, Redundancy::kFrequent, chunk);
+    RowWriter().finish(chunk);
+    put_padding(kTwo.memory_bytes(), chunk);
+    return chunk;
+}
+
+TEST(LayerCoder, ModesWithoutTheirReferencesAreRefused) {
+    // The first brick is shown in the first half, below a brick and beside the time-parent's.
+    for (int symbol = 0; symbol < 256; ++symbol) {
+        const Setting setting;
+        const BrickMode mode = mode_of(symbol % kModeSymbols);
+        const BrickMode none{.reference = Reference::kBefore,
+                             .follows_green = false,
+                             .alpha = AlphaMode::kOpaque,
+                             .exact = true};
+        const bool known = is_mode(symbol) && mode.reference != Reference::kMirror &&
+                           mode.reference != Reference::kOtherEdge;
+        Layer back;
+        const Result<void> done = decoded(
+            setting,
+            4,
+            chunk_of_modes(setting, {static_cast<std::uint8_t>(symbol), none.symbol()}),
+            kTwo,
+            back);
+        ASSERT_EQ(done.has_value(), known && mode.exact) << symbol;
+        if (done) continue;
+        EXPECT_EQ(done.error().message,
+                  known ? "streams left over or missing"
+                        : "brick 0: mode " + std::to_string(symbol));
+    }
+}
+
+TEST(LayerCoder, AModeForEveryBrickIsAskedFor) {
+    const Setting setting;
+    for (const std::size_t modes : {1U, 3U}) {
+        Layer back;
+        const Result<void> done =
+            decoded(setting, 4, chunk_of_modes(setting, Stream(modes, 1)), kTwo, back);
+        ASSERT_FALSE(done.has_value()) << modes;
+        EXPECT_EQ(done.error().message,
+                  modes == 1 ? "1 modes for 2 bricks"
+                             : "stream of 3 bytes, at most 2 expected");
+    }
+}
+
+// What a reader makes of one ref, of siblings at time level 2.
+TakeRefs one_taken(const Stream& kinds, const Stream& spelled, Ref& ref) {
+    std::vector<std::byte> bytes;
+    put_stream(kinds, Redundancy::kRepeated, bytes);
+    put_stream(spelled, Redundancy::kRepeated, bytes);
+    StreamReader streams(bytes);
+    Result<TakeRefs> refs = TakeRefs::open(streams, 2);
+    EXPECT_TRUE(refs.has_value());
+    RefSequence sequence(2);
+    (*refs).code(ref, kNoCandidates, sequence);
+    return *std::move(refs);
+}
+
+TEST(RefCoder, RefsSpelledOutComeBack) {
+    Ref ref{};
+    const TakeRefs refs = one_taken({kExplicit}, {9, 1, 0, 0, 2}, ref);
+    EXPECT_TRUE(refs.at_end());
+    EXPECT_EQ(ref, make_ref(0, 265));
+}
+
+TEST(RefCoder, KindsThatAreNoneAreDamage) {
+    Ref ref{};
+    EXPECT_TRUE(one_taken({kExplicit + 1}, {}, ref).damaged());
+    // Three levels up from level 2 there is nothing.
+    EXPECT_TRUE(one_taken({kExplicit}, {0, 0, 0, 0, 3}, ref).damaged());
+    EXPECT_TRUE(one_taken({kExplicit}, {0, 0, 0, 0, 255}, ref).damaged());
+    // No layer has so many.
+    EXPECT_TRUE(one_taken({kExplicit}, {255, 255, 255, 7, 0}, ref).damaged());
+    EXPECT_EQ(ref, kNoDetailRef);
+}
+
+TEST(RefCoder, RefsThatAreMissingOrLeftOverAreDamage) {
+    Ref ref{};
+    EXPECT_TRUE(one_taken({}, {}, ref).damaged());
+    EXPECT_TRUE(one_taken({kExplicit}, {0, 0, 0, 0}, ref).damaged());
+    EXPECT_FALSE(one_taken({kNext, kNext}, {}, ref).at_end());
+    EXPECT_FALSE(one_taken({kNext}, {0}, ref).at_end());
+    EXPECT_TRUE(one_taken({kNext}, {}, ref).at_end());
 }
 
 TimeNodeSurroundings below_root(const Setting& setting) {
@@ -198,8 +295,7 @@ TEST(TimeNodeCoder, RootsAndBoundsOutsideAreRefused) {
         if (wrong == 1) nodes.node[0].root[1] = make_ref(1, 2);
         if (wrong == 2) nodes.node[1].root[0] = kNoDetailRef;
         if (wrong == 3) nodes.node[1].bounds = {0, 0, 17, 16};
-        SymbolCosts costs = first_costs();
-        const auto chunk = encode_time_nodes(nodes, below_root(setting), costs);
+        const auto chunk = encode_time_nodes(nodes, below_root(setting));
         SiblingNodes back;
         const Result<void> done = decode_time_nodes(chunk, below_root(setting), back);
         ASSERT_EQ(done.has_value(), wrong == 0);

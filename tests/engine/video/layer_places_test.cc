@@ -71,7 +71,6 @@ TEST(LayerPlaces, RootsComeFirstHalfFirst) {
     expect_shown(found[1].parent, make_ref(0, 0), 3);
     expect_shown(found[1].first, make_ref(1, 0), 3);
     EXPECT_FALSE(found[0].first.any());
-    EXPECT_FALSE(found[0].left.any());
     EXPECT_FALSE(found[0].coarse.any());
 }
 
@@ -88,7 +87,6 @@ TEST(LayerPlaces, ANodeShownTwiceCountsWhereItIsShownFirst) {
     EXPECT_EQ(beside.node, 1U);
     EXPECT_EQ(beside.x, 1);
     EXPECT_EQ(beside.y, 0);
-    expect_shown(beside.left, make_ref(1, 0), 4);
     // The time-parent has no finer detail there.
     expect_shown(beside.parent, make_ref(0, 0), 3);
     const Placed& second = found[2];
@@ -169,17 +167,6 @@ TEST(LayerPlaces, NeighboursAreWhatAWalkFromTheRootFinds) {
                                 half == 0 ? Shown{} : shown(own.nodes.node[0], edge));
                             expect_same(placed.other_edge,
                                         edge == 0 ? Shown{} : shown(node, 0));
-                            const Ref root = node.root[edge];
-                            expect_same(
-                                placed.left,
-                                placed.x == 0
-                                    ? Shown{}
-                                    : shown_at(at, root, level, placed.x - 1, placed.y));
-                            expect_same(
-                                placed.above,
-                                placed.y == 0
-                                    ? Shown{}
-                                    : shown_at(at, root, level, placed.x, placed.y - 1));
                         }
                     }
                     EXPECT_TRUE(found);

@@ -255,7 +255,9 @@ TEST(MrvClip, HostileChunksAreRefusedOrReadWithinTheirLayers) {
         }
     }
     EXPECT_GT(changed, 200);
-    EXPECT_GT(refused, changed * 9 / 10);
+    // The rest are other residuals of a brick, or other refs that lie within their layers.
+    EXPECT_GT(refused, changed / 4);
+    EXPECT_LT(refused, changed);
 }
 
 TEST(MrvClip, OtherFilesAreToldApart) {
@@ -266,11 +268,11 @@ TEST(MrvClip, OtherFilesAreToldApart) {
     EXPECT_EQ(code(std::vector<std::byte>(500, std::byte{'x'})),
               ErrorCode::kUnsupportedFormat);
     std::vector<std::byte> file = mrv_bytes(linked_clip(8, 8, 1, 13));
-    file[8] = std::byte{2};
+    file[8] = std::byte{kMrvVersion + 1};
     EXPECT_EQ(code(file), ErrorCode::kNewerVersion);
-    file[8] = std::byte{0};
-    EXPECT_EQ(code(file), ErrorCode::kUnsupportedFormat);
     file[8] = std::byte{1};
+    EXPECT_EQ(code(file), ErrorCode::kUnsupportedFormat);
+    file[8] = std::byte{kMrvVersion};
     file[20] ^= std::byte{1};
     EXPECT_EQ(code(file), ErrorCode::kUndecodable);
 }
@@ -281,6 +283,15 @@ TEST(MrvClip, WhatFollowsTheClipDoesNotMatter) {
     file.resize(file.size() + 100, std::byte{7});
     EXPECT_EQ(opened(file, 0)->revision(), revision);
     EXPECT_TRUE(intact(file));
+}
+
+TEST(MrvClip, AnOlderFileIsRefusedAndItsOwnerToldWhatToDo) {
+    std::vector<std::byte> file = mrv_bytes(linked_clip(8, 8, 1, 15));
+    file[8] = std::byte{1};
+    const Result<std::unique_ptr<MrvClip>> older = MrvClip::open(file, 0);
+    ASSERT_FALSE(older.has_value());
+    EXPECT_EQ(older.error().message,
+              ".mrv file of version 1, which is no longer read: upload the clip again");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(MrvFormat, TheHeaderIsAsItIsDocumented) {
         return value;
     };
     EXPECT_EQ(std::memcmp(bytes.data(), "HAARMRV\n", 8), 0);
-    EXPECT_EQ(number(8, std::uint32_t{}), 1U);
+    EXPECT_EQ(number(8, std::uint32_t{}), 2U);
     EXPECT_EQ(number(12, std::int32_t{}), 16);
     EXPECT_EQ(number(16, std::int32_t{}), 16);
     EXPECT_EQ(number(20, std::int32_t{}), 25);
