@@ -49,9 +49,9 @@ class LayerCoding {
     template <typename F>
     void each_brick(F&& f) {
         std::vector<const Placed*> first(bricks_of_layer_, nullptr);
-        const std::vector<LinkedNode>& nodes = at_.layer(own_, level_).nodes;
+        const LinkedNodes& nodes = at_.layer(own_, level_).nodes;
         for (const Placed& place : places_) {
-            const Ref ref = nodes[place.node].brick;
+            const Ref ref = nodes.brick(place.node);
             if (time_level_of(ref) == own_ && first[index_of(ref)] == nullptr)
                 first[index_of(ref)] = &place;
         }

@@ -1,5 +1,6 @@
 #include "engine/video/layer_places.h"
 
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -51,16 +52,16 @@ class Walk {
     // where there is none.
     struct Below {
         Shown over;
-        const LinkedNode* node = nullptr;
+        std::array<Ref, 4> child = LinkedNode{}.child;
 
         [[nodiscard]] Shown quadrant(int q, int level) const {
-            if (node == nullptr || node->child[q] == kNoDetailRef) return over;
-            return {node->child[q], level + 1};
+            if (child[q] == kNoDetailRef) return over;
+            return {child[q], level + 1};
         }
     };
     [[nodiscard]] Below below(const Shown& over, int level) const {
-        if (!over.any() || over.level < level) return {over, nullptr};
-        return {over, &at_.node(level, over.node)};
+        if (!over.any() || over.level < level) return {.over = over};
+        return {over, at_.node(level, over.node).child};
     }
 
     void descend(int level) {
@@ -70,7 +71,7 @@ class Walk {
         placed_.reserve(seen_.size());
         for (const Placed& over : above) {
             const Shown self{make_ref(own(), over.node), level};
-            const LinkedNode& node = at_.node(level, self.node);
+            const LinkedNode node = at_.node(level, self.node);
             const Below parent = below(over.parent, level);
             const Below first = below(over.first, level);
             const Below other_edge = below(over.other_edge, level);
