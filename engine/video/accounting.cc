@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -76,10 +78,12 @@ class Counter {
     }
 
   private:
-    Result<void> count_siblings(const SiblingAddress& address, const Frame* parent);
+    // `above`: the frame of their time-parent, as the walk came by it; null at the root.
+    Result<void> count_siblings(const SiblingAddress& address, const Frame* above);
     // Counts the node, and where nothing finer in time is stored, all nodes below it.
     void count_node(const Frame& frame, const Frame* parent);
-    Result<void> find_subtrees(const SiblingAddress& address, const Frame& frame);
+    // Those of the siblings that the frame's refs of a time level lead to.
+    void find_subtrees(const Frame& frame, int time_level);
     // Which pixels are, with all below them, what the time-parent has.
     PixelMask compare(int level,
                       const Frame& frame,
@@ -96,42 +100,57 @@ class Counter {
     const TimeTree& clip_;
     const ClipShape& shape_;
     StorageCounts total_;
-    std::vector<LayerSubtrees> chain_;  // by time level
+    std::vector<LayerSubtrees> chain_;  // by time level of refs
 };
 
-Result<void> Counter::count_siblings(const SiblingAddress& address, const Frame* parent) {
+Result<void> Counter::count_siblings(const SiblingAddress& address, const Frame* above) {
     const int k = address.time_level;
     const std::int64_t first = k == 0 ? 0 : 2 * address.index;
     const std::int64_t end = std::min(first + (k == 0 ? 1 : 2), shape_.nodes_at(k));
+    std::optional<Frame> parent;
+    std::size_t shared = 0;
+    std::vector<LayerSubtrees> aside;
     for (std::int64_t index = first; index < end; ++index) {
         Result<Frame> frame = clip_.frame({k, index}, shape_.space_levels());
         if (!frame) return std::move(frame).error();
         if (index == first) {
-            const Result<void> found = find_subtrees(address, *frame);
-            if (!found) return found;
+            if (above != nullptr) {
+                // Siblings from before an append have other time-ancestors than the walk.
+                shared = static_cast<std::size_t>(
+                    Frame::last_shared_level(*above, *frame) + 1);
+                aside.assign(std::make_move_iterator(chain_.begin() +
+                                                     static_cast<std::ptrdiff_t>(shared)),
+                             std::make_move_iterator(chain_.end()));
+                chain_.resize(shared);
+                Result<Frame> found = clip_.above(*frame);
+                if (!found) return std::move(found).error();
+                parent = *std::move(found);
+            }
+            for (int level = static_cast<int>(shared); level <= (*frame).depth(); ++level)
+                find_subtrees(*frame, level);
         }
-        count_node(*frame, parent);
+        count_node(*frame, parent ? &*parent : nullptr);
         if (!clip_.finer_in_time({k, index})) continue;
         const Result<void> below = count_siblings({k + 1, index}, &*frame);
         if (!below) return below;
     }
-    chain_.resize(static_cast<std::size_t>(k));
+    chain_.resize(shared);
+    std::move(aside.begin(), aside.end(), std::back_inserter(chain_));
     return {};
 }
 
 // The finest level first, so that what lies below is known.
-Result<void> Counter::find_subtrees(const SiblingAddress& address, const Frame& frame) {
+void Counter::find_subtrees(const Frame& frame, int time_level) {
     LayerSubtrees& layers = chain_.emplace_back();
     layers.resize(
         static_cast<std::size_t>(std::max(0, shape_.space_levels() - kBrickLevel + 1)));
     for (int level = shape_.space_levels(); level >= kBrickLevel; --level) {
-        const Result<Frame::LayerPtr> layer = clip_.layer(address, level);
-        if (!layer) return layer.error();
+        const Layer& layer = frame.layer(time_level, level);
         std::vector<Subtrees>& found =
             layers[static_cast<std::size_t>(level - kBrickLevel)];
-        found.reserve((*layer)->nodes.size());
-        for (std::size_t i = 0; i < (*layer)->nodes.size(); ++i) {
-            const LinkedNode node = (*layer)->nodes[i];
+        found.reserve(layer.nodes.size());
+        for (std::size_t i = 0; i < layer.nodes.size(); ++i) {
+            const LinkedNode node = layer.nodes[i];
             Subtrees& subtrees = found.emplace_back();
             const Brick& brick = frame.brick(level, node.brick);
             for (int q = 0; q < 4; ++q) {
@@ -146,7 +165,6 @@ Result<void> Counter::find_subtrees(const SiblingAddress& address, const Frame& 
             }
         }
     }
-    return {};
 }
 
 void Counter::count_node(const Frame& frame, const Frame* parent) {

@@ -30,19 +30,6 @@ PixelBox common(const PixelBox& a, const PixelBox& b) {
     return {left, top, right - left, bottom - top};
 }
 
-// The last time level at which both frames' chains have the same siblings: a ref owned there
-// or above is the same node in both.
-int last_shared_level(const NodeAddress& a, const NodeAddress& b) {
-    int level = 0;
-    for (int k = 1; k <= std::min(a.time_level, b.time_level); ++k) {
-        const NodeAddress above_a{k, a.index >> (a.time_level - k)};
-        const NodeAddress above_b{k, b.index >> (b.time_level - k)};
-        if (siblings_of(above_a) != siblings_of(above_b)) break;
-        level = k;
-    }
-    return level;
-}
-
 class Changes {
   public:
     Changes(const Frame& shown,
@@ -54,7 +41,7 @@ class Changes {
         : shown_(shown),
           next_(next),
           level_(level),
-          shared_(last_shared_level(shown.stored(), next.stored())),
+          shared_(Frame::last_shared_level(shown, next)),
           box_(box),
           drawing_(next, level, box, out, stride) {}
 

@@ -64,6 +64,12 @@ struct SiblingAddress {
     return {at.time_level, at.time_level == 0 ? 0 : at.index >> 1};
 }
 
+// The siblings at a time level that is theirs or above. Requires: time_level <= at.time_level.
+[[nodiscard]] constexpr SiblingAddress ancestor_of(const SiblingAddress& at,
+                                                   int time_level) {
+    return {time_level, at.index >> (at.time_level - time_level)};
+}
+
 struct SiblingNodes {
     std::array<TimeNode, 2> node{};
     int count = 0;  // 1 or 2

@@ -28,17 +28,23 @@ class Survey {
         }
     }
 
-    // A stored time node, its time-parent's frame (none at the root), and all below it.
-    [[nodiscard]] Result<void> visit(const NodeAddress& at, const Frame* parent) {
+    // A stored time node and all below it.
+    [[nodiscard]] Result<void> visit(const NodeAddress& at) {
         const Result<Frame> frame = clip_.frame(at, space_level_);
         if (!frame) return frame.error();
         const bool last = !clip_.finer_in_time(at);
-        note(at, measure(*frame, parent, last), last);
+        if (at.time_level == 0) {
+            note(at, measure(*frame, nullptr, last), last);
+        } else {
+            const Result<Frame> parent = clip_.above(*frame);
+            if (!parent) return parent.error();
+            note(at, measure(*frame, &*parent, last), last);
+        }
         if (last) return {};
         for (std::int64_t half = 0; half < 2; ++half) {
             const NodeAddress child{at.time_level + 1, 2 * at.index + half};
             if (!shape_.contains(child)) break;
-            if (Result<void> visited = visit(child, &*frame); !visited) return visited;
+            if (Result<void> visited = visit(child); !visited) return visited;
         }
         return {};
     }
@@ -179,7 +185,7 @@ Result<Timeline> timeline(const TimeTree& clip, std::int64_t buckets, int space_
                      "buckets"};
     }
     Survey survey(clip, buckets, space_level);
-    if (Result<void> visited = survey.visit({0, 0}, nullptr); !visited) {
+    if (Result<void> visited = survey.visit({0, 0}); !visited) {
         return std::move(visited).error();
     }
     return survey.take();

@@ -121,6 +121,31 @@ TEST(TimeTree, CoarseLevelsNeedNoLayerAtAll) {
     EXPECT_TRUE(tree.layers_read.empty());
 }
 
+TEST(TimeTree, TheTimeParentOfAFrameHasTheSameLayersAndReadsNone) {
+    const CountedTree tree(kAll);
+    const Result<Frame> frame = tree.frame({3, 5}, 4);
+    ASSERT_TRUE(frame.has_value());
+    const auto read = tree.layers_read;
+    const Result<Frame> parent = tree.above(*frame);
+    ASSERT_TRUE(parent.has_value());
+    EXPECT_EQ(tree.layers_read, read);
+    EXPECT_EQ((*parent).stored(), (NodeAddress{2, 2}));
+    EXPECT_EQ((*parent).time_node().bounds.left, 210);
+    EXPECT_EQ((*parent).depth(), 2);
+    for (int k = 0; k <= 2; ++k)
+        EXPECT_EQ(&(*parent).layer(k, 4), &(*frame).layer(k, 4)) << k;
+}
+
+TEST(TimeTree, FramesShareTheLayersThatBothHold) {
+    const CountedTree tree(kAll);
+    const Result<Frame> frame = tree.frame({3, 5}, 4);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(Frame::last_shared_level(*frame, *frame), 3);
+    EXPECT_EQ(Frame::last_shared_level(*frame, *tree.above(*frame)), 2);
+    // The tree makes new layers each time that it is asked.
+    EXPECT_EQ(Frame::last_shared_level(*frame, *tree.frame({3, 5}, 4)), -1);
+}
+
 TEST(TimeTree, PassesOnWhatTheStorageMeets) {
     CountedTree tree(kAll);
     tree.layer_that_fails = 4;
