@@ -17,12 +17,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "engine/core/result.h"
 #include "engine/video/clip_shape.h"
 #include "engine/video/frame_source.h"
 #include "engine/video/layer.h"
+#include "engine/video/read_source.h"
 #include "engine/video/spool.h"
 
 namespace haarmony::video {
@@ -30,10 +30,7 @@ namespace haarmony::video {
 struct BuildOptions {
     std::uint32_t delta = 0;      // in units of difference()
     std::int64_t max_frames = 0;  // frames read at most; 0 = all
-    // Told how many frames are read (pass 1) and how many time nodes are written (pass 2);
-    // false stops the build.
-    std::function<bool(std::int64_t frames_read, std::int64_t nodes_written)> progress =
-        {};
+    BuildObserver progress = {};
 };
 
 // What was built. Returns after sink.finish().

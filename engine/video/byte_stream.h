@@ -1,7 +1,7 @@
 // Numbers as bytes of a .mrv file, written and read.
 //
 // Shape   fixed numbers little-endian; a varint has 7 bits a byte, the low ones first, the top
-//         bit saying that more follow, at most 10 bytes; signed varints are zigzag-coded.
+//         bit saying that more follow, at most 10 bytes.
 // Errors  reading past the end, or a varint of more than 64 bits, gives 0 and overrun().
 #pragma once
 
@@ -27,14 +27,6 @@ void put_fixed(std::vector<std::byte>& out, T value) {
 inline void put_varint(std::vector<std::byte>& out, std::uint64_t value) {
     for (; value >= 128; value >>= 7) out.push_back(static_cast<std::byte>(value | 128));
     out.push_back(static_cast<std::byte>(value));
-}
-
-[[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) {
-    return static_cast<std::uint64_t>(value) << 1 ^
-           static_cast<std::uint64_t>(value >> 63);
-}
-[[nodiscard]] constexpr std::int64_t unzigzag(std::uint64_t code) {
-    return static_cast<std::int64_t>(code >> 1 ^ (0 - (code & 1)));
 }
 
 class ByteReader {

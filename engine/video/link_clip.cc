@@ -49,7 +49,7 @@ class Linker {
             if (!told) return told;
         }
         for (int i = 0; i < linked.count; ++i) {
-            if (node(k, first + i).uniform) continue;
+            if (node(k, first + i).uniform || kept(k, first + i)) continue;
             const Result<void> below =
                 write({k + 1, first + i}, &linked.node[static_cast<std::size_t>(i)]);
             if (!below) return below;
@@ -61,6 +61,11 @@ class Linker {
   private:
     [[nodiscard]] const SpooledNode& node(int time_level, std::int64_t index) const {
         return nodes_.at(shape_.time_levels() - time_level, index);
+    }
+
+    // Complete and a clip's already, with all below it.
+    [[nodiscard]] bool kept(int time_level, std::int64_t index) const {
+        return (index + 1) << (shape_.time_levels() - time_level) <= options_.kept_frames;
     }
 
     const ClipShape& shape_;

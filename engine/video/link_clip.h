@@ -23,13 +23,17 @@ namespace haarmony::video {
 struct LinkOptions {
     std::uint32_t delta = 0;                 // in units of difference()
     std::uint32_t max_index = kMaxRefIndex;  // of a node or brick in its layer
+    // Frames of which a clip has all that they complete already: siblings below a time node
+    // of these alone are left out.
+    std::int64_t kept_frames = 0;
     // Told how many time nodes the sink has taken, after each pair of siblings; an error
     // ends the pass.
     std::function<Result<void>(std::int64_t nodes)> written = {};
 };
 
 // Calls sink.begin(), add() for all siblings that are stored, and finish().
-// Requires: `nodes` has all time nodes of the shape, their frames in `spool`.
+// Requires: `nodes` has the time nodes of the shape that are not left out, their frames in
+// `spool`.
 [[nodiscard]] Result<void> link_clip(const ClipShape& shape,
                                      const SpooledNodes& nodes,
                                      FrameSpool& spool,

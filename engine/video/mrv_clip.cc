@@ -1,5 +1,6 @@
 #include "engine/video/mrv_clip.h"
 
+#include <algorithm>
 #include <cassert>
 #include <optional>
 #include <string>
@@ -12,27 +13,37 @@
 #include "engine/video/time_node_coder.h"
 
 namespace haarmony::video {
+namespace {
 
-class MrvClip::Impl {
+// One of the time trees that the clip has been: its siblings depend on each other alone.
+class Generation {
   public:
-    Impl(std::span<const std::byte> file, MrvFront front, std::size_t cache_bytes)
-        : file_(file), front_(std::move(front)), cache_(cache_bytes) {}
+    // `first_key`: the ordinals of all generations count on, so that each has keys of its own.
+    Generation(std::span<const std::byte> file,
+               const ClipShape& shape,
+               const MrvIndex& index,
+               std::size_t first_key,
+               DecodedCache& cache)
+        : file_(file),
+          shape_(shape),
+          index_(index),
+          first_key_(first_key),
+          cache_(cache) {}
 
-    [[nodiscard]] const MrvFront& front() const { return front_; }
-    [[nodiscard]] const DecodedCache& cache() const { return cache_; }
+    [[nodiscard]] const ClipShape& shape() const { return shape_; }
     [[nodiscard]] std::optional<std::size_t> find(const SiblingAddress& address) const {
-        return front_.index.find(address);
+        return index_.find(address);
     }
 
-    Result<Frame::Nodes> nodes(std::size_t ordinal) {
+    Result<Frame::Nodes> nodes(std::size_t ordinal) const {
         Result<DecodedCache::Value> value =
             cache_.get(key(0, ordinal), [&] { return decode_nodes(ordinal); });
         if (!value) return std::move(value).error();
         return std::static_pointer_cast<const SiblingNodes>(*std::move(value));
     }
 
-    Result<Frame::LayerPtr> layer(std::size_t ordinal, int row) {
-        if (front_.index.chunk(row, ordinal).size.empty()) return empty_;
+    Result<Frame::LayerPtr> layer(std::size_t ordinal, int row) const {
+        if (index_.chunk(row, ordinal).size.empty()) return empty_;
         Result<DecodedCache::Value> value =
             cache_.get(key(row, ordinal), [&] { return decode_layer_at(ordinal, row); });
         if (!value) return std::move(value).error();
@@ -41,16 +52,16 @@ class MrvClip::Impl {
 
     // Decodes the siblings and all below them. What is above is held by the callers, so that
     // nothing is decoded twice, however small the cache.
-    Result<void> verify(std::size_t ordinal) {
+    Result<void> verify(std::size_t ordinal) const {
         Result<Frame::Nodes> own_nodes = nodes(ordinal);
         if (!own_nodes) return std::move(own_nodes).error();
         std::vector<Frame::LayerPtr> held;
-        for (int row = 1; row < front_.index.rows(); ++row) {
+        for (int row = 1; row < index_.rows(); ++row) {
             Result<Frame::LayerPtr> found = layer(ordinal, row);
             if (!found) return std::move(found).error();
             held.push_back(*std::move(found));
         }
-        const SiblingAddress& address = front_.index.address(ordinal);
+        const SiblingAddress& address = index_.address(ordinal);
         for (int half = 0; half < (*own_nodes)->count; ++half) {
             const std::int64_t index =
                 address.time_level == 0 ? 0 : 2 * address.index + half;
@@ -62,26 +73,22 @@ class MrvClip::Impl {
     }
 
   private:
-    static std::uint64_t key(int row, std::size_t ordinal) {
-        return static_cast<std::uint64_t>(ordinal) << 8 | static_cast<std::uint64_t>(row);
+    [[nodiscard]] std::uint64_t key(int row, std::size_t ordinal) const {
+        return std::uint64_t{first_key_ + ordinal} << 8 | static_cast<std::uint64_t>(row);
     }
 
     [[nodiscard]] std::vector<std::size_t> ordinals_to(std::size_t ordinal) const {
-        SiblingAddress address = front_.index.address(ordinal);
-        std::vector<std::size_t> ordinals(static_cast<std::size_t>(address.time_level) +
-                                          1);
-        for (;;) {
-            ordinals[static_cast<std::size_t>(address.time_level)] = ordinal;
-            if (address.time_level == 0) return ordinals;
-            address = siblings_of({address.time_level - 1, address.index});
-            ordinal = *find(address);
-        }
+        const SiblingAddress& address = index_.address(ordinal);
+        std::vector<std::size_t> ordinals;
+        for (int k = 0; k <= address.time_level; ++k)
+            ordinals.push_back(*find(ancestor_of(address, k)));
+        return ordinals;
     }
 
     [[nodiscard]] Error in_chunk(std::size_t ordinal,
                                  int row,
                                  const std::string& what) const {
-        const SiblingAddress& address = front_.index.address(ordinal);
+        const SiblingAddress& address = index_.address(ordinal);
         const std::string part =
             row == 0 ? "time nodes"
                      : "space level " + std::to_string(row + kBrickLevel - 1);
@@ -92,7 +99,7 @@ class MrvClip::Impl {
     }
 
     Result<std::span<const std::byte>> chunk_bytes(std::size_t ordinal, int row) const {
-        const MrvChunk& chunk = front_.index.chunk(row, ordinal);
+        const MrvChunk& chunk = index_.chunk(row, ordinal);
         if (chunk.offset > file_.size() || chunk.bytes > file_.size() - chunk.offset) {
             return in_chunk(
                 ordinal,
@@ -111,14 +118,14 @@ class MrvClip::Impl {
         return above.node[address.time_level == 1 ? 0 : address.index & 1];
     }
 
-    Result<DecodedCache::Decoded> decode_nodes(std::size_t ordinal) {
+    Result<DecodedCache::Decoded> decode_nodes(std::size_t ordinal) const {
         const std::vector<std::size_t> chain = ordinals_to(ordinal);
-        TimeNodeSurroundings around{.shape = front_.shape,
-                                    .address = front_.index.address(ordinal),
+        TimeNodeSurroundings around{.shape = shape_,
+                                    .address = index_.address(ordinal),
                                     .time_parent = nullptr,
                                     .root_nodes = {}};
         for (const std::size_t i : chain)
-            around.root_nodes.push_back(front_.index.chunk(1, i).size.nodes);
+            around.root_nodes.push_back(index_.chunk(1, i).size.nodes);
         Frame::Nodes above;
         if (chain.size() > 1) {
             Result<Frame::Nodes> found = nodes(chain[chain.size() - 2]);
@@ -134,14 +141,14 @@ class MrvClip::Impl {
         return DecodedCache::Decoded{std::move(decoded), sizeof(SiblingNodes)};
     }
 
-    Result<DecodedCache::Decoded> decode_layer_at(std::size_t ordinal, int row) {
+    Result<DecodedCache::Decoded> decode_layer_at(std::size_t ordinal, int row) const {
         const auto bytes = chunk_bytes(ordinal, row);
         if (!bytes) return bytes.error();
         const std::vector<std::size_t> chain = ordinals_to(ordinal);
         LayerSurroundings around;
-        around.address = front_.index.address(ordinal);
+        around.address = index_.address(ordinal);
         around.space_level = row + kBrickLevel - 1;
-        around.finest_level = front_.index.rows() + kBrickLevel - 2;
+        around.finest_level = index_.rows() + kBrickLevel - 2;
         Result<Frame::Nodes> own_nodes = nodes(ordinal);
         if (!own_nodes) return std::move(own_nodes).error();
         around.nodes = (*own_nodes).get();
@@ -164,10 +171,10 @@ class MrvClip::Impl {
                 held.push_back(*std::move(found));
             }
             if (around.space_level < around.finest_level)
-                around.finer_nodes.push_back(front_.index.chunk(row + 1, i).size.nodes);
+                around.finer_nodes.push_back(index_.chunk(row + 1, i).size.nodes);
         }
         around.layers.back().push_back(decoded.get());
-        const LayerSize& size = front_.index.chunk(row, ordinal).size;
+        const LayerSize& size = index_.chunk(row, ordinal).size;
         if (Result<void> done = decode_layer(*bytes, size, around, *decoded); !done)
             return in_chunk(ordinal, row, done.error().message);
         decoded->compact();
@@ -175,9 +182,61 @@ class MrvClip::Impl {
     }
 
     std::span<const std::byte> file_;
+    const ClipShape& shape_;
+    const MrvIndex& index_;
+    std::size_t first_key_;
+    DecodedCache& cache_;
+    Frame::LayerPtr empty_ = std::make_shared<const Layer>();
+};
+
+}  // namespace
+
+class MrvClip::Impl {
+  public:
+    Impl(std::span<const std::byte> file, MrvFront front, std::size_t cache_bytes)
+        : front_(std::move(front)), cache_(cache_bytes) {
+        std::size_t key = 0;
+        for (const MrvGeneration& older : front_.older) {
+            generations_.emplace_back(file, older.shape, older.index, key, cache_);
+            key += older.index.siblings();
+        }
+        generations_.emplace_back(file, front_.shape, front_.index, key, cache_);
+    }
+
+    // Siblings of the clip where they are stored: in a generation, at its time levels.
+    struct Place {
+        const Generation* generation;
+        SiblingAddress address;
+    };
+    [[nodiscard]] Place place(const SiblingAddress& address) const {
+        const int levels = front_.shape.time_levels();
+        auto found = generations_.end() - 1;
+        if (address.time_level > 0) {
+            const std::int64_t end = (address.index + 1)
+                                     << (levels - address.time_level + 1);
+            found = std::partition_point(
+                generations_.begin(), found, [end](const Generation& generation) {
+                    return generation.shape().frames() < end;
+                });
+        }
+        const int younger = levels - found->shape().time_levels();
+        return {&*found, {address.time_level - younger, address.index}};
+    }
+
+    [[nodiscard]] const MrvFront& front() const { return front_; }
+    [[nodiscard]] const DecodedCache& cache() const { return cache_; }
+
+    [[nodiscard]] Result<void> verify() const {
+        for (const Generation& generation : generations_) {
+            if (Result<void> checked = generation.verify(0); !checked) return checked;
+        }
+        return {};
+    }
+
+  private:
     MrvFront front_;
     DecodedCache cache_;
-    Frame::LayerPtr empty_ = std::make_shared<const Layer>();
+    std::vector<Generation> generations_;  // the first first
 };
 
 MrvClip::MrvClip(std::unique_ptr<Impl> impl)
@@ -193,24 +252,46 @@ Result<std::unique_ptr<MrvClip>> MrvClip::open(std::span<const std::byte> file,
 }
 
 bool MrvClip::stored(const SiblingAddress& address) const {
-    return impl_->find(address).has_value();
+    const Impl::Place place = impl_->place(address);
+    return place.generation->find(place.address).has_value();
+}
+
+int MrvClip::depth(const SiblingAddress& address) const {
+    return impl_->place(address).address.time_level;
 }
 
 Result<Frame::Nodes> MrvClip::nodes(const SiblingAddress& address) const {
-    assert(stored(address));
-    return impl_->nodes(*impl_->find(address));
+    return nodes_on_way(address, depth(address));
 }
 
 Result<Frame::LayerPtr> MrvClip::layer(const SiblingAddress& address,
                                        int space_level) const {
-    assert(stored(address) && space_level >= kBrickLevel &&
-           mrv_row_of(space_level) < impl_->front().index.rows());
-    return impl_->layer(*impl_->find(address), mrv_row_of(space_level));
+    return layer_on_way(address, depth(address), space_level);
 }
 
+Result<Frame::Nodes> MrvClip::nodes_on_way(const SiblingAddress& address,
+                                           int time_level) const {
+    const Impl::Place place = impl_->place(address);
+    const auto found = place.generation->find(ancestor_of(place.address, time_level));
+    assert(found);
+    return place.generation->nodes(*found);
+}
+
+Result<Frame::LayerPtr> MrvClip::layer_on_way(const SiblingAddress& address,
+                                              int time_level,
+                                              int space_level) const {
+    assert(space_level >= kBrickLevel &&
+           mrv_row_of(space_level) < impl_->front().index.rows());
+    const Impl::Place place = impl_->place(address);
+    const auto found = place.generation->find(ancestor_of(place.address, time_level));
+    assert(found);
+    return place.generation->layer(*found, mrv_row_of(space_level));
+}
+
+const MrvFront& MrvClip::front() const { return impl_->front(); }
 std::uint64_t MrvClip::revision() const { return impl_->front().revision; }
 std::size_t MrvClip::cached_bytes() const { return impl_->cache().bytes(); }
 std::uint64_t MrvClip::decoded_chunks() const { return impl_->cache().decoded(); }
-Result<void> MrvClip::verify() const { return impl_->verify(0); }
+Result<void> MrvClip::verify() const { return impl_->verify(); }
 
 }  // namespace haarmony::video

@@ -22,6 +22,8 @@
 
 namespace haarmony::video {
 
+struct MrvFront;
+
 class MrvClip final : public TimeTree {
   public:
     // `file` must stay mapped while the clip lives. `cache_bytes` bounds the layers that are
@@ -36,7 +38,15 @@ class MrvClip final : public TimeTree {
         const SiblingAddress& address) const override;
     [[nodiscard]] Result<Frame::LayerPtr> layer(const SiblingAddress& address,
                                                 int space_level) const override;
+    [[nodiscard]] int depth(const SiblingAddress& address) const override;
+    [[nodiscard]] Result<Frame::Nodes> nodes_on_way(const SiblingAddress& address,
+                                                    int time_level) const override;
+    [[nodiscard]] Result<Frame::LayerPtr> layer_on_way(const SiblingAddress& address,
+                                                       int time_level,
+                                                       int space_level) const override;
 
+    // What an append goes on from (mrv_writer.h).
+    [[nodiscard]] const MrvFront& front() const;
     [[nodiscard]] std::uint64_t revision() const;
     [[nodiscard]] std::size_t cached_bytes() const;
     // How many chunks were decoded since open().

@@ -15,13 +15,37 @@ namespace haarmony::video {
 
 class MrvWriter::Impl {
   public:
-    Impl(Spool& waiting, Spool& file) : waiting_(waiting), file_(file) {}
+    Impl(Spool& waiting, Spool& file) : waiting_(waiting), file_(&file) {}
+    Impl(const MrvFront& front, Spool& waiting, GrowingFile& growing)
+        : waiting_(waiting), growing_(&growing), older_(front.older) {
+        older_.push_back({.shape = front.shape,
+                          .index = front.index,
+                          .index_bytes = front.index_bytes,
+                          .index_checksum = front.index_checksum,
+                          .end = front.file_bytes});
+    }
 
-    void begin(const ClipShape& shape, std::uint32_t delta) {
-        front_.emplace(MrvFront{
-            .shape = shape, .delta = delta, .index = {}, .file_bytes = 0, .revision = 0});
+    Result<void> begin(const ClipShape& shape, std::uint32_t delta) {
+        assert(older_.empty() ||
+               (delta == 0 && older_.back().shape.format() == shape.format() &&
+                older_.back().shape.frames() < shape.frames()));
+        if (older_.size() == kMostGenerations) {
+            return Error{ErrorCode::kConflict,
+                         "frames were appended to the clip " +
+                             std::to_string(kMostGenerations - 1) +
+                             " times, which is the most; build it anew from itself"};
+        }
+        front_.emplace(MrvFront{.shape = shape,
+                                .delta = delta,
+                                .index = {},
+                                .file_bytes = 0,
+                                .revision = 0,
+                                .index_bytes = 0,
+                                .index_checksum = 0,
+                                .older = older_});
         chain_.clear();
         written_.clear();
+        return {};
     }
 
     Result<void> add(Siblings siblings) {
@@ -68,27 +92,59 @@ class MrvWriter::Impl {
                 index.chunk(row, ordinal) = chunks[static_cast<std::size_t>(row)];
             ++ordinal;
         }
-        front_->index = index;
-        if (auto put = file_.append(encode_front(*front_)); !put)
-            return std::move(put).error();
-        std::vector<std::byte> bytes;
-        for (int row = 0; row < index.rows(); ++row) {
-            for (std::size_t i = 0; i < index.siblings(); ++i) {
-                const MrvChunk& chunk = index.chunk(row, i);
-                if (chunk.bytes == 0) continue;
-                bytes.resize(chunk.bytes);
-                if (Result<void> got = waiting_.read(chunk.offset, bytes); !got)
-                    return got;
-                if (auto put = file_.append(bytes); !put) return std::move(put).error();
-            }
-        }
+        front_->index = std::move(index);
         chain_.clear();
-        return {};
+        return growing_ == nullptr ? write_file() : write_generation();
     }
 
     [[nodiscard]] const MrvFront& front() const { return *front_; }
 
   private:
+    Result<void> write_file() {
+        if (auto put = file_->append(encode_front(*front_)); !put)
+            return std::move(put).error();
+        return each_chunk([this](std::span<const std::byte> bytes) -> Result<void> {
+            if (auto put = file_->append(bytes); !put) return std::move(put).error();
+            return {};
+        });
+    }
+
+    Result<void> write_generation() {
+        const MrvGenerationBytes made = encode_generation(*front_);
+        std::uint64_t at = made.segment_at;
+        const auto put = [&](std::span<const std::byte> bytes) {
+            const std::uint64_t begin = at;
+            at += bytes.size();
+            return growing_->write(begin, bytes);
+        };
+        Result<void> written = put(made.segment);
+        if (written) written = each_chunk(put);
+        if (written) written = growing_->sync();
+        if (written) written = growing_->write(made.slot_at, made.slot);
+        if (written) written = growing_->sync();
+        return written;
+    }
+
+    // In the order of the file.
+    template <typename Put>
+    Result<void> each_chunk(const Put& put) {
+        const MrvIndex& index = front_->index;
+        std::vector<std::byte> bytes;
+        std::vector<const std::vector<MrvChunk>*> waiting;
+        for (const auto& [address, chunks] : written_) waiting.push_back(&chunks);
+        for (std::size_t row = 0; row < static_cast<std::size_t>(index.rows()); ++row) {
+            for (const std::vector<MrvChunk>* chunks : waiting) {
+                const MrvChunk& chunk = (*chunks)[row];
+                if (chunk.bytes == 0) continue;
+                bytes.resize(chunk.bytes);
+                if (Result<void> got = waiting_.read(chunk.offset, bytes); !got)
+                    return got;
+                if (Result<void> done = put(bytes); !done) return done;
+            }
+        }
+        return {};
+    }
+
     static Error too_large(const SiblingAddress& address,
                            std::size_t count,
                            const char* what) {
@@ -144,7 +200,9 @@ class MrvWriter::Impl {
     }
 
     Spool& waiting_;
-    Spool& file_;
+    Spool* file_ = nullptr;           // of a new clip,
+    GrowingFile* growing_ = nullptr;  // or of one that grows
+    std::vector<MrvGeneration> older_;
     std::optional<MrvFront> front_;
     std::vector<Siblings> chain_;  // from the root of the time tree to the last added
     std::map<std::pair<int, std::int64_t>, std::vector<MrvChunk>> written_;
@@ -152,11 +210,12 @@ class MrvWriter::Impl {
 
 MrvWriter::MrvWriter(Spool& waiting, Spool& file)
     : impl_(std::make_unique<Impl>(waiting, file)) {}
+MrvWriter::MrvWriter(const MrvFront& front, Spool& waiting, GrowingFile& file)
+    : impl_(std::make_unique<Impl>(front, waiting, file)) {}
 MrvWriter::~MrvWriter() = default;
 
 Result<void> MrvWriter::begin(const ClipShape& shape, std::uint32_t delta) {
-    impl_->begin(shape, delta);
-    return {};
+    return impl_->begin(shape, delta);
 }
 Result<void> MrvWriter::add(Siblings siblings) { return impl_->add(std::move(siblings)); }
 Result<void> MrvWriter::finish() { return impl_->finish(); }

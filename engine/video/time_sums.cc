@@ -61,7 +61,7 @@ Result<void> TimeSums::add(const ImageTree& tree, std::int64_t repeats) {
             begins = false;
         }
         frames_ += block;
-        const Result<void> completed = complete(height);
+        const Result<void> completed = complete(height, {*last_spooled_, true});
         if (!completed) return completed;
         repeats -= block;
     }
@@ -79,8 +79,26 @@ Result<void> TimeSums::spool_single() {
     return {};
 }
 
-Result<void> TimeSums::complete(int height) {
-    SpooledNode node{*last_spooled_, true};
+Result<void> TimeSums::add_whole(int height, FrameSum sum, bool uniform) {
+    assert(sum.frames() == std::int64_t{1} << height);
+    assert(frames_ % sum.frames() == 0);
+    sum_ = std::move(sum);
+    SpooledNode node{{}, uniform};
+    if (uniform) {
+        const Result<void> spooled = spool_single();
+        if (!spooled) return spooled;
+        node.frame = *last_spooled_;
+    } else {
+        sum_.mean_into(exact_);
+        const Result<SpooledFrame> spooled = spool_.put(exact_);
+        if (!spooled) return spooled.error();
+        node.frame = *spooled;
+    }
+    frames_ += sum_.frames();
+    return complete(height, node);
+}
+
+Result<void> TimeSums::complete(int height, SpooledNode node) {
     std::int64_t index = (frames_ - 1) >> height;
     nodes_.add(height, index, node);
     // As in binary addition: a second half completes its parent.

@@ -32,6 +32,10 @@ class TimeSums {
     // The next frames: `tree`, `repeats` times. Requires: repeats >= 1, and that all frames
     // are no more than ClipShape allows.
     [[nodiscard]] Result<void> add(const ImageTree& tree, std::int64_t repeats);
+    // The next 2^height frames, by their sum; `uniform`: they are all the same. Time nodes
+    // below theirs are not put aside.
+    // Requires: sum.frames() is 2^height, of which frames() is a multiple.
+    [[nodiscard]] Result<void> add_whole(int height, FrameSum sum, bool uniform);
     [[nodiscard]] std::int64_t frames() const { return frames_; }
     // All time nodes up to the root. Requires: frames() >= 1; nothing is added after.
     [[nodiscard]] Result<SpooledNodes> finish();
@@ -49,7 +53,7 @@ class TimeSums {
     [[nodiscard]] Result<void> spool_single();
     // Adds the node of that height that ends at frames_, its sum in sum_, and all that it
     // completes.
-    [[nodiscard]] Result<void> complete(int height);
+    [[nodiscard]] Result<void> complete(int height, SpooledNode node);
     // The node of both halves; the sum of the second, and then of the node, is in sum_.
     [[nodiscard]] Result<SpooledNode> join(Waiting& first, const SpooledNode& second);
 

@@ -2,18 +2,21 @@
 // read again. As the bytes come, and as changes of a whole file with checksums that fit, so
 // that what is behind them is reached.
 //
-// The first byte says which; changes are five bytes each: where, and what is put there.
+// The first byte says which, and of which file: one that was built at once, or one that grew.
+// Changes are five bytes each: where, and what is put there.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/video/mrv_clip.h"
 #include "engine/video/mrv_format.h"
-#include "tests/engine/video/linked_clip.h"
+#include "tests/engine/video/appended_clip.h"
+#include "tests/engine/video/random_links.h"
 
 namespace {
 
@@ -42,17 +45,19 @@ void read_all(std::span<const std::byte> file) {
     require((*clip)->frame(last, shape.space_levels()).has_value());
 }
 
-// The chunks' checksums in the index, as a writer would have put them. An entry is found by
+// The chunks' checksums in their index, as a writer would have put them. An entry is found by
 // what stands there: changes leave the index itself alone.
-void seal_chunks(std::vector<std::byte>& file, const MrvIndex& index) {
+void seal_chunks(std::vector<std::byte>& file,
+                 const MrvIndex& index,
+                 std::uint64_t index_bytes) {
+    const std::size_t end = index.chunk(0, 0).offset;
     for (int row = 0; row < index.rows(); ++row) {
         for (std::size_t i = 0; i < index.siblings(); ++i) {
             const MrvChunk& chunk = index.chunk(row, i);
             if (chunk.bytes == 0) continue;
             const std::uint64_t sum =
                 mrv_checksum(std::span(file).subspan(chunk.offset, chunk.bytes));
-            for (std::size_t at = kMrvHeaderBytes; at + 8 <= index.chunk(0, 0).offset;
-                 ++at) {
+            for (std::size_t at = end - index_bytes; at + 8 <= end; ++at) {
                 if (std::memcmp(file.data() + at, &chunk.checksum, 8) != 0) continue;
                 std::memcpy(file.data() + at, &sum, sizeof sum);
                 break;
@@ -61,10 +66,20 @@ void seal_chunks(std::vector<std::byte>& file, const MrvIndex& index) {
     }
 }
 
-const std::vector<std::byte>& whole() {
-    static const std::vector<std::byte> file =
-        testing::mrv_bytes(testing::linked_clip(20, 17, 3, 12));
-    return file;
+struct Whole {
+    std::vector<std::byte> bytes;
+    MrvFront front;
+};
+const Whole& whole(bool grown) {
+    const auto made = [](std::vector<std::byte> bytes) {
+        MrvFront front = *decode_front(bytes);
+        return Whole{std::move(bytes), std::move(front)};
+    };
+    static const Whole at_once =
+        made(testing::mrv_bytes(testing::linked_clip(20, 17, 3, 12)));
+    static const Whole appended =
+        made(testing::appended_bytes(testing::random_clip(20, 17, 5, 12), {2, 1, 2}));
+    return grown ? appended : at_once;
 }
 
 }  // namespace
@@ -77,15 +92,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t siz
         read_all(std::as_bytes(std::span(input + 1, size - 1)));
         return 0;
     }
-    static const MrvIndex index = (*decode_front(whole())).index;
-    const std::size_t begin = in_chunks ? index.chunk(0, 0).offset : 0;
-    std::vector<std::byte> file = whole();
+    const Whole& clip = whole(input[0] % 8 >= 4);
+    const std::size_t begin = in_chunks ? clip.front.index.chunk(0, 0).offset : 0;
+    std::vector<std::byte> file = clip.bytes;
     for (std::size_t at = 1; at + 5 <= size; at += 5) {
         std::uint32_t place = 0;
         std::memcpy(&place, input + at, sizeof place);
         file[begin + place % (file.size() - begin)] = std::byte{input[at + 4]};
     }
-    if (in_chunks) seal_chunks(file, index);
+    if (in_chunks) seal_chunks(file, clip.front.index, clip.front.index_bytes);
     testing::seal_front(file);
     read_all(file);
     return 0;

@@ -211,6 +211,8 @@ TEST(MrvClip, EveryFlippedByteIsNoticed) {
     std::vector<std::byte> file = mrv_bytes(linked_clip(9, 9, 2, 11));
     ASSERT_TRUE(intact(file));
     for (std::size_t i = 0; i < file.size(); ++i) {
+        // The slot for an append: whatever is there is no generation.
+        if (i >= kMrvSlotsAt + kMrvSlotBytes && i < kMrvHeaderBytes) continue;
         file[i] ^= std::byte{1} << i % 8;
         EXPECT_FALSE(intact(file)) << i;
         file[i] ^= std::byte{1} << i % 8;

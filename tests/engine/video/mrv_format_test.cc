@@ -28,7 +28,10 @@ MrvFront small_front() {
             .delta = 3,
             .index = index,
             .file_bytes = 0,
-            .revision = 0};
+            .revision = 0,
+            .index_bytes = 0,
+            .index_checksum = 0,
+            .older = {}};
 }
 
 TEST(MrvFormat, FrontsComeBack) {
@@ -61,14 +64,20 @@ TEST(MrvFormat, TheHeaderIsAsItIsDocumented) {
     EXPECT_EQ(number(20, std::int32_t{}), 25);
     EXPECT_EQ(number(24, std::int32_t{}), 1);
     EXPECT_EQ(number(28, std::uint32_t{}), 3U);
-    EXPECT_EQ(number(32, std::int64_t{}), 4);
-    EXPECT_EQ(number(40, std::uint64_t{}), 3U);
-    EXPECT_EQ(number(48, std::uint64_t{}), 96U);
-    EXPECT_EQ(number(56, std::uint64_t{}), bytes.size() - 96);
-    EXPECT_EQ(number(64, std::uint64_t{}), bytes.size());
-    EXPECT_EQ(number(72, std::uint64_t{}), front.file_bytes);
-    EXPECT_EQ(number(80, std::uint64_t{}), mrv_checksum(std::span(bytes).subspan(96)));
-    EXPECT_EQ(number(88, std::uint64_t{}), mrv_checksum(std::span(bytes).first(88)));
+    // The first slot, and nothing in the second.
+    EXPECT_EQ(number(32, std::uint64_t{}), 1U);
+    EXPECT_EQ(number(40, std::uint64_t{}), 96U);
+    EXPECT_EQ(number(48, std::uint64_t{}),
+              mrv_checksum(std::span(bytes).subspan(96, 40)));
+    EXPECT_EQ(number(56, std::uint64_t{}), mrv_checksum(std::span(bytes).first(56)));
+    EXPECT_EQ(front.revision, number(56, std::uint64_t{}));
+    for (std::size_t at = 64; at < 96; ++at) EXPECT_EQ(bytes[at], std::byte{0});
+    // The table's only record.
+    EXPECT_EQ(number(96, std::int64_t{}), 4);
+    EXPECT_EQ(number(104, std::uint64_t{}), 3U);
+    EXPECT_EQ(number(112, std::uint64_t{}), bytes.size() - 136);
+    EXPECT_EQ(number(120, std::uint64_t{}), front.file_bytes);
+    EXPECT_EQ(number(128, std::uint64_t{}), mrv_checksum(std::span(bytes).subspan(136)));
 }
 
 void expect_refused(std::vector<std::byte> file, const std::string& what) {
@@ -91,15 +100,20 @@ TEST(MrvFormat, HeadersOutsideTheirLimitsAreRefused) {
     expect_refused(with(12, std::int32_t{0}), "width");
     expect_refused(with(16, std::int32_t{kMaxSide + 1}), "height");
     expect_refused(with(24, std::int32_t{0}), "rate");
-    expect_refused(with(32, std::int64_t{0}), "frames");
-    expect_refused(with(40, std::uint64_t{1} << 40), "number of siblings");
-    expect_refused(with(40, std::uint64_t{2}), "number of siblings");
-    expect_refused(with(40, std::uint64_t{4}), "number of siblings");
-    expect_refused(with(48, std::uint64_t{95}), "index cut off");
-    expect_refused(with(48, ~std::uint64_t{0}), "index cut off");
-    expect_refused(with(56, ~std::uint64_t{0}), "index cut off");
-    expect_refused(with(64, ~std::uint64_t{0}), "place of time level 0");
-    expect_refused(with(72, std::uint64_t{200}), "place of time level");
+    expect_refused(with(32, std::uint64_t{0}), "checksum of the header");
+    expect_refused(with(32, std::uint64_t{3}), "generations are 3");
+    expect_refused(with(40, std::uint64_t{95}), "table of generations cut off");
+    expect_refused(with(40, ~std::uint64_t{0}), "table of generations cut off");
+    expect_refused(with(96, std::int64_t{0}), "frames");
+    expect_refused(with(104, std::uint64_t{1} << 40), "number of siblings");
+    expect_refused(with(104, std::uint64_t{2}), "number of siblings");
+    expect_refused(with(104, std::uint64_t{4}), "number of siblings");
+    expect_refused(with(112, ~std::uint64_t{0}), "index cut off");
+    expect_refused(with(120, ~std::uint64_t{0}), "chunks end at byte");
+    MrvFront front = small_front();
+    expect_refused(with(120, std::uint64_t{encode_front(front).size() + 60}),
+                   "place of time level 1");
+    expect_refused(with(120, std::uint64_t{140}), "end is 140");
 }
 
 // An index of numbers, behind a header that fits.
@@ -109,12 +123,13 @@ void expect_index_refused(const std::vector<std::uint64_t>& numbers,
                           const std::string& what) {
     MrvFront front = small_front();
     std::vector<std::byte> file = encode_front(front);
-    file.resize(kMrvHeaderBytes);
+    const std::size_t index_at = kMrvHeaderBytes + kMrvRecordBytes;
+    file.resize(index_at);
     for (const std::uint64_t number : numbers) put_varint(file, number);
-    file.resize(kMrvHeaderBytes + length);
+    file.resize(index_at + length);
     const std::uint64_t bytes = length;
-    std::memcpy(file.data() + 40, &siblings, sizeof siblings);
-    std::memcpy(file.data() + 56, &bytes, sizeof bytes);
+    std::memcpy(file.data() + 104, &siblings, sizeof siblings);
+    std::memcpy(file.data() + 112, &bytes, sizeof bytes);
     expect_refused(file, what);
 }
 
@@ -129,7 +144,7 @@ TEST(MrvFormat, IndexesThatContradictThemselvesAreRefused) {
     // One chunk of time nodes, then a layer of more nodes than refs can name.
     const auto with_layer = [](std::uint64_t nodes, std::uint64_t bytes) {
         return std::vector<std::uint64_t>{
-            1, 0, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, nodes, 0, bytes};
+            1, 0, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, nodes, 0, bytes};
     };
     expect_index_refused(with_layer(kMaxRefIndex + 2, 1), 60, 1, "size of time level 0");
     expect_index_refused(with_layer(kMaxRefIndex, 100), 60, 1, "expansion");

@@ -11,11 +11,6 @@
 namespace haarmony::video::testing {
 namespace {
 
-constexpr std::size_t kIndexOffsetAt = 48;
-constexpr std::size_t kIndexBytesAt = 56;
-constexpr std::size_t kIndexChecksumAt = 80;
-constexpr std::size_t kRevisionAt = 88;
-
 class Maker {
   public:
     Maker(const ClipShape& shape, std::uint32_t seed)
@@ -144,8 +139,19 @@ class Maker {
     std::vector<Siblings> made_;
 };
 
+std::uint64_t number_at(const std::vector<std::byte>& file, std::size_t at) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, file.data() + at, sizeof value);
+    return value;
+}
 void put_at(std::vector<std::byte>& file, std::size_t at, std::uint64_t value) {
     std::memcpy(file.data() + at, &value, sizeof value);
+}
+
+// The slot of more generations: the newest, or what was made of it.
+std::size_t newest_slot(const std::vector<std::byte>& file) {
+    const std::size_t second = kMrvSlotsAt + kMrvSlotBytes;
+    return number_at(file, kMrvSlotsAt) < number_at(file, second) ? second : kMrvSlotsAt;
 }
 
 }  // namespace
@@ -170,17 +176,33 @@ std::vector<std::byte> mrv_bytes(const LinkedClip& clip) {
 }
 
 void seal_header(std::vector<std::byte>& file) {
-    put_at(file, kRevisionAt, mrv_checksum(std::span(file).first(kRevisionAt)));
+    const std::size_t slot = newest_slot(file);
+    std::vector<std::byte> checked(file.begin(), file.begin() + kMrvSlotsAt);
+    const auto begin = file.begin() + static_cast<std::ptrdiff_t>(slot);
+    checked.insert(checked.end(), begin, begin + kMrvSlotBytes - 8);
+    put_at(file, slot + kMrvSlotBytes - 8, mrv_checksum(checked));
 }
 
 void seal_front(std::vector<std::byte>& file) {
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
-    std::memcpy(&offset, file.data() + kIndexOffsetAt, sizeof offset);
-    std::memcpy(&bytes, file.data() + kIndexBytesAt, sizeof bytes);
-    if (offset <= file.size() && bytes <= file.size() - offset) {
+    const std::size_t slot = newest_slot(file);
+    const std::uint64_t generations = number_at(file, slot);
+    const std::uint64_t table = number_at(file, slot + 8);
+    if (generations <= kMostGenerations && table <= file.size() &&
+        generations * kMrvRecordBytes <= file.size() - table) {
+        std::uint64_t begin = kMrvHeaderBytes;
+        for (std::size_t g = 0; g < generations; ++g) {
+            const std::size_t record = table + g * kMrvRecordBytes;
+            const std::uint64_t index = begin + (g + 1) * kMrvRecordBytes;
+            const std::uint64_t bytes = number_at(file, record + 16);
+            begin = number_at(file, record + 24);
+            if (index > file.size() || bytes > file.size() - index) continue;
+            put_at(
+                file, record + 32, mrv_checksum(std::span(file).subspan(index, bytes)));
+        }
         put_at(
-            file, kIndexChecksumAt, mrv_checksum(std::span(file).subspan(offset, bytes)));
+            file,
+            slot + 16,
+            mrv_checksum(std::span(file).subspan(table, generations * kMrvRecordBytes)));
     }
     seal_header(file);
 }

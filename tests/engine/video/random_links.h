@@ -25,9 +25,9 @@ struct LinkedClip {
 // The .mrv file that a writer makes of the siblings.
 [[nodiscard]] std::vector<std::byte> mrv_bytes(const LinkedClip& clip);
 
-// The header's checksum as a writer would have put it.
+// The checksum of the newest slot of the header, as a writer would have put it.
 void seal_header(std::vector<std::byte>& file);
-// The checksums of header and index.
+// Those of the indexes, of the table of generations and of the newest slot.
 void seal_front(std::vector<std::byte>& file);
 
 }  // namespace haarmony::video::testing

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/engine/video/faulty_spool.h"
 #include "tests/engine/video/plain_frame.h"
 #include "tests/engine/video/raw_source.h"
@@ -72,6 +74,35 @@ void expect_exact(const RawClip& clip, const SpooledNodes& nodes, FrameSpool& sp
                         << k << " " << i << " " << level;
                 }
             }
+        }
+    }
+}
+
+// Old frames by their sums: the nodes of the whole and of what follows, and none below.
+TEST(TimeSums, FramesAddedAsAWholeMakeTheSameNodesAbove) {
+    const RawClip clip = random_clip(20, 12, 7, 33);
+    MemorySpool memory;
+    FrameSpool spool(memory);
+    TimeSums sums(clip.format, spool);
+    FrameSum whole(clip.format);
+    for (std::size_t t = 0; t < 4; ++t)
+        whole.add(complete_tree(clip.frames[t], clip.format), 1);
+    ASSERT_TRUE(sums.add_whole(2, std::move(whole), false).has_value());
+    EXPECT_EQ(sums.frames(), 4);
+    for (std::size_t t = 4; t < 7; ++t)
+        ASSERT_TRUE(sums.add(complete_tree(clip.frames[t], clip.format), 1).has_value());
+    const Result<SpooledNodes> nodes = sums.finish();
+    ASSERT_TRUE(nodes.has_value());
+    // The root, its halves, (4, 5), (6), and three frames: (6) is a frame at two heights.
+    EXPECT_EQ((*nodes).size(), 1U + 2 + 2 + 2);
+    for (const auto& [height, index] :
+         {std::pair(3, 0), {2, 0}, {2, 1}, {1, 2}, {1, 3}, {0, 4}, {0, 5}}) {
+        ExactFrame frame;
+        ASSERT_TRUE(spool.get((*nodes).at(height, index).frame, frame).has_value());
+        for (const Edge edge : {Edge::kPad, Edge::kNormalize}) {
+            EXPECT_EQ(picture_of(frame, clip.format, 5, edge),
+                      exact_picture(clip, {3 - height, index}, 5, edge))
+                << height << " " << index;
         }
     }
 }
