@@ -1,5 +1,6 @@
 #include "schema/video_store.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <string_view>
@@ -30,6 +31,25 @@ constexpr std::string_view kAddFrame =
 constexpr std::string_view kFramesAfter =
     "SELECT id, video_id, time_level, node, shot, signature FROM frame_signatures"
     " WHERE id > ?1 ORDER BY id LIMIT ?2";
+
+constexpr std::string_view kGrow =
+    "UPDATE videos SET revision = ?3, frames = ?4, time_nodes = ?5,"
+    " complete_subtrees = ?6, pruned_subtrees = ?7, own_subtrees = ?8, uplinks = ?9,"
+    " memory_bytes = ?10, disk_bytes = ?11, job_id = nullif(?12, 0)"
+    " WHERE id = ?1 AND revision = ?2 RETURNING id";
+
+// Frames on their way to new ids and time levels are kept apart from the old ones by time
+// levels that no video has.
+constexpr std::string_view kKeepFrames =
+    "INSERT INTO frame_signatures (video_id, time_level, node, shot, signature)"
+    " SELECT video_id, time_level + ?3 - ?2 + 1000, node, shot, signature"
+    " FROM frame_signatures WHERE video_id = ?1 AND time_level > 0"
+    " AND (((node >> 1) + 1) << (?2 - time_level + 1)) <= ?4 ORDER BY id";
+constexpr std::string_view kDropFrames =
+    "DELETE FROM frame_signatures WHERE video_id = ?1 AND time_level < 1000";
+constexpr std::string_view kPlaceFrames =
+    "UPDATE frame_signatures SET time_level = time_level - 1000"
+    " WHERE video_id = ?1 AND time_level >= 1000";
 
 std::string video_name(std::int64_t id) { return "video " + std::to_string(id); }
 
@@ -140,6 +160,46 @@ Result<void> insert_frames(StatementCache& cache,
     return {};
 }
 
+Result<void> update(StatementCache& cache, const GrownVideo& video) {
+    auto statement = cache.borrow(kGrow);
+    if (!statement) return std::move(statement).error();
+    Statement& row = **statement;
+    const Video& now = video.now;
+    row.bind(1, video.before.id);
+    row.bind(2, video.before.revision);
+    row.bind(3, now.revision);
+    row.bind(4, now.frames);
+    row.bind(5, now.storage.time_nodes);
+    row.bind(6, now.storage.complete_subtrees);
+    row.bind(7, now.storage.pruned_subtrees);
+    row.bind(8, now.storage.own_subtrees);
+    row.bind(9, now.storage.uplinks);
+    row.bind(10, now.storage.memory_bytes);
+    row.bind(11, now.storage.disk_bytes);
+    row.bind(12, now.job.value_or(0));
+    const auto id = row.run_returning();
+    if (!id) return id.error();
+    if (!*id)
+        return Error{
+            ErrorCode::kNotFound,
+            "no " + video_name(video.before.id) + " of revision " + video.before.revision,
+            "video"};
+    return {};
+}
+
+Result<void> keep_frames(StatementCache& cache, const GrownVideo& video) {
+    auto statement = cache.borrow(kKeepFrames);
+    if (!statement) return std::move(statement).error();
+    (*statement)->bind(1, video.before.id);
+    (*statement)->bind(2, std::int64_t{video.time_levels_before});
+    (*statement)->bind(3, std::int64_t{video.time_levels});
+    (*statement)->bind(4, video.before.frames);
+    Result<void> done = (*statement)->run();
+    if (done) done = cache.run(kDropFrames, video.before.id);
+    if (done) done = cache.run(kPlaceFrames, video.before.id);
+    return done;
+}
+
 }  // namespace
 
 Result<Video> VideoStore::add(const Video& video,
@@ -210,6 +270,27 @@ Result<Video> VideoStore::remove(std::int64_t id) {
     return **std::move(video);
 }
 
+Result<Video> VideoStore::grow(const GrownVideo& video,
+                               std::span<const FrameSignature> frames,
+                               const Step& before_commit) {
+    const std::int64_t id = video.before.id;
+    const auto failed = [&](Error error) {
+        return while_doing("cannot change " + video_name(id), std::move(error));
+    };
+    Result<WriteScope> scope = WriteScope::begin(cache_, WriteScope::Kind::kTransaction);
+    if (!scope) return failed(std::move(scope).error());
+    Result<void> done = update(cache_, video);
+    if (done) done = keep_frames(cache_, video);
+    if (done) done = insert_frames(cache_, id, frames);
+    if (!done) return failed(std::move(done).error());
+    auto stored = find(cache_, "id = ?1", id);
+    if (!stored) return failed(std::move(stored).error());
+    done = before_commit(**stored);
+    if (done) done = scope->commit();
+    if (!done) return failed(std::move(done).error());
+    return **std::move(stored);
+}
+
 Result<void> VideoStore::while_nobody_writes(
     const std::function<Result<void>(const std::vector<Video>&)>& work) {
     const auto failed = [](Error error) {
@@ -262,6 +343,37 @@ Result<std::vector<FrameSignature>> VideoStore::frames_after(std::int64_t after,
         frame.signature.assign(bytes.begin(), bytes.end());
         frames.push_back(std::move(frame));
     }
+}
+
+Result<std::vector<std::int64_t>> VideoStore::frame_ids() {
+    const auto failed = [](Error error) {
+        return while_doing("cannot read the ids of frames", std::move(error));
+    };
+    // From the index of places, which is much smaller than the signatures.
+    auto statement = cache_.borrow("SELECT id FROM frame_signatures");
+    if (!statement) return failed(std::move(statement).error());
+    std::vector<std::int64_t> ids;
+    for (;;) {
+        const Result<bool> row = (*statement)->step();
+        if (!row) return failed(row.error());
+        if (!*row) break;
+        ids.push_back((*statement)->integer(0));
+    }
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+Result<bool> VideoStore::has_frame(std::int64_t id) {
+    const auto failed = [&](Error error) {
+        return while_doing("cannot look for frame " + std::to_string(id),
+                           std::move(error));
+    };
+    auto statement = cache_.borrow("SELECT 1 FROM frame_signatures WHERE id = ?1");
+    if (!statement) return failed(std::move(statement).error());
+    (*statement)->bind(1, id);
+    const Result<bool> row = (*statement)->step();
+    if (!row) return failed(row.error());
+    return *row;
 }
 
 }  // namespace haarmony::schema

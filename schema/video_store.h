@@ -60,6 +60,16 @@ struct FrameSignature {
     std::vector<std::uint8_t> signature;
 };
 
+// A video that frames were appended to. Of its old signatures those stay, and get new ids, of
+// the halves of time nodes that were complete; nothing of them has changed but the time level.
+struct GrownVideo {
+    Video before;  // as it was read
+    // With the new revision, frames, storage and job; all else is as before.
+    Video now;
+    int time_levels_before = 0;
+    int time_levels = 0;
+};
+
 // Different whenever a frame was added or removed.
 struct FramesVersion {
     std::int64_t last = 0;
@@ -81,6 +91,11 @@ class VideoStore {
     [[nodiscard]] Result<Video> get(std::int64_t id);
     // The video that this job has made, if it came that far.
     [[nodiscard]] Result<std::optional<Video>> made_by(std::int64_t job);
+    // Changes the row and adds the new frames' signatures; `before_commit` may still refuse.
+    // kNotFound where the video is gone or has another revision by now.
+    [[nodiscard]] Result<Video> grow(const GrownVideo& video,
+                                     std::span<const FrameSignature> frames,
+                                     const Step& before_commit);
     // In the order of ids, at most `limit` (>= 1), only ids above `after`.
     [[nodiscard]] Result<std::vector<Video>> list(int limit, std::int64_t after);
     [[nodiscard]] Result<std::int64_t> count();
@@ -94,6 +109,9 @@ class VideoStore {
     // In the order of ids, at most `limit` (>= 1), only ids above `after`.
     [[nodiscard]] Result<std::vector<FrameSignature>> frames_after(std::int64_t after,
                                                                    int limit);
+    // Of all frames, ascending.
+    [[nodiscard]] Result<std::vector<std::int64_t>> frame_ids();
+    [[nodiscard]] Result<bool> has_frame(std::int64_t id);
 
   private:
     StatementCache cache_;

@@ -24,19 +24,6 @@ Error differs(const char* name, const std::string& theirs, const std::string& ou
             name};
 }
 
-Result<void> fits(const FrameFormat& more, const FrameFormat& clip) {
-    if (more.width != clip.width)
-        return differs("width", std::to_string(more.width), std::to_string(clip.width));
-    if (more.height != clip.height)
-        return differs(
-            "height", std::to_string(more.height), std::to_string(clip.height));
-    if (std::int64_t{more.rate.numerator} * clip.rate.denominator !=
-        std::int64_t{clip.rate.numerator} * more.rate.denominator) {
-        return differs("rate", text(more.rate), text(clip.rate));
-    }
-    return {};
-}
-
 // The clip's frames, as the blocks of a power of two that they are in the time tree.
 Result<void> add_clip(const TimeTree& clip, TimeSums& sums, BuildProgress& progress) {
     const ClipShape& shape = clip.shape();
@@ -66,6 +53,19 @@ Result<void> add_clip(const TimeTree& clip, TimeSums& sums, BuildProgress& progr
 
 }  // namespace
 
+Result<void> can_follow(const FrameFormat& more, const FrameFormat& clip) {
+    if (more.width != clip.width)
+        return differs("width", std::to_string(more.width), std::to_string(clip.width));
+    if (more.height != clip.height)
+        return differs(
+            "height", std::to_string(more.height), std::to_string(clip.height));
+    if (std::int64_t{more.rate.numerator} * clip.rate.denominator !=
+        std::int64_t{clip.rate.numerator} * more.rate.denominator) {
+        return differs("rate", text(more.rate), text(clip.rate));
+    }
+    return {};
+}
+
 Result<ClipShape> append(const TimeTree& clip,
                          FrameSource& more,
                          Spool& spool,
@@ -78,7 +78,7 @@ Result<ClipShape> append(const TimeTree& clip,
                          " of their source (delta); only to a clip of delta 0 can frames "
                          "be appended"};
     }
-    if (const Result<void> same = fits(more.format(), old.format()); !same)
+    if (const Result<void> same = can_follow(more.format(), old.format()); !same)
         return same.error();
     FrameSpool frames(spool);
     TimeSums sums(old.format(), frames);

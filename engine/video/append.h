@@ -34,6 +34,10 @@ struct AppendOptions {
     BuildObserver progress = {};
 };
 
+// Whether frames of one format can follow upon those of a clip: kInvalidArgument naming both
+// and, as param, what differs: width, height or rate.
+[[nodiscard]] Result<void> can_follow(const FrameFormat& more, const FrameFormat& clip);
+
 // What the clip has become. Returns after sink.finish().
 [[nodiscard]] Result<ClipShape> append(const TimeTree& clip,
                                        FrameSource& more,

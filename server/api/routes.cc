@@ -216,6 +216,7 @@ constexpr std::array kRoutes{
           Body::kPicture,
           false,
           post_composition},
+    Route{"POST", "/videos/{id}/frames", Cost::kCostly, Body::kVideo, false, post_frames},
     Route{"GET", "/videos/{id}/export", Cost::kCostly, Body::kNone, false, get_export},
     Route{"GET",
           "/videos/{id}/thumbnails.vtt",

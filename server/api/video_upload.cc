@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/video/append.h"
 #include "engine/video/generate/generator.h"
 #include "engine/video/mrv_clip.h"
 #include "ingest/sniff.h"
@@ -19,6 +20,7 @@
 #include "server/api/inputs.h"
 #include "server/api/leaves_json.h"
 #include "server/api/points_json.h"
+#include "server/api/video_json.h"
 #include "server/api/video_wishes.h"
 #include "server/app/mapped_file.h"
 #include "server/app/raw_frames.h"
@@ -36,6 +38,44 @@ std::span<const std::uint8_t> first_of(std::string_view bytes) {
     return {reinterpret_cast<const std::uint8_t*>(bytes.data()),
             std::min(bytes.size(), ingest::kSniffBytes)};
 }
+
+// Where frames go: into a new video, or behind those of one that there is.
+struct Upload {
+    const Context& context;
+    std::optional<schema::Video> grows = {};
+    video::FrameFormat format = {};  // of the one that grows
+
+    [[nodiscard]] VideoWishes wishes(Inputs& inputs) const {
+        for (const std::string_view name : {"name", "delta", "index"})
+            if (grows && inputs.has(name))
+                inputs.refuse(malformed(
+                    std::string(name) + " does not apply: the video keeps its own",
+                    name));
+        return read_video_wishes(inputs);
+    }
+    // What is not said is as in the video that grows.
+    [[nodiscard]] video::FrameFormat frame_format(Inputs& inputs) const {
+        video::FrameFormat read = read_frame_format(inputs);
+        if (!grows) return read;
+        if (!inputs.has("width")) read.width = format.width;
+        if (!inputs.has("height")) read.height = format.height;
+        if (!inputs.has("rate")) read.rate = format.rate;
+        if (const auto problem = refuses(read)) inputs.refuse(*problem);
+        return read;
+    }
+    [[nodiscard]] std::optional<http::Problem> refuses(
+        const video::FrameFormat& frames) const {
+        if (!grows) return {};
+        const auto follows = video::can_follow(frames, format);
+        if (follows) return {};
+        return impossible("other_format", follows.error().message, follows.error().param);
+    }
+    [[nodiscard]] Reply queue(VideoRequest video,
+                              std::span<const std::byte> input) const {
+        if (grows) video.append_to = grows->id;
+        return queue_video(context, std::move(video), input);
+    }
+};
 
 // "application/json; charset=utf-8" -> "application/json".
 std::string media_type_of(const http::Request& request) {
@@ -60,11 +100,15 @@ http::Problem unsupported(std::string_view bytes, const std::string& type) {
 }
 
 // Whether the bytes are a .mrv file, or why they are a bad one.
-Outcome<bool> is_clip(Bytes bytes) {
+Outcome<bool> is_clip(const Upload& upload, Bytes bytes) {
     // Nothing is decoded here.
     constexpr std::size_t kNoCache = 0;
     const auto clip = video::MrvClip::open(bytes, kNoCache);
-    if (clip) return true;
+    if (clip) {
+        if (const auto problem = upload.refuses((*clip)->shape().format()))
+            return *problem;
+        return true;
+    }
     switch (clip.error().code) {
         case ErrorCode::kUnsupportedFormat:
             return false;
@@ -75,13 +119,15 @@ Outcome<bool> is_clip(Bytes bytes) {
     }
 }
 
-Outcome<VideoRequest> read_raw(Inputs& inputs, const http::Request& request) {
+Outcome<VideoRequest> read_raw(const Upload& upload,
+                               Inputs& inputs,
+                               const http::Request& request) {
     VideoRequest video;
     video.origin = VideoOrigin::kRaw;
-    video.wishes = read_video_wishes(inputs);
-    const auto format = read_frame_format(inputs);
+    video.wishes = upload.wishes(inputs);
+    const auto format = upload.frame_format(inputs);
     for (const std::string_view side : {"width", "height"})
-        if (!inputs.has(side))
+        if (!upload.grows && !inputs.has(side))
             inputs.refuse(malformed(std::string(side) + " is missing", side));
     if (const auto problem = inputs.refused()) return *problem;
     video.format = format;
@@ -100,28 +146,28 @@ Outcome<VideoRequest> read_raw(Inputs& inputs, const http::Request& request) {
     return video;
 }
 
-Outcome<VideoRequest> read_clip(Inputs& inputs) {
+Outcome<VideoRequest> read_clip(const Upload& upload, Inputs& inputs) {
     VideoRequest video;
     video.origin = VideoOrigin::kClip;
     for (const std::string_view name : {"delta", "max_frames"})
-        if (inputs.has(name))
+        if (!upload.grows && inputs.has(name))
             inputs.refuse(malformed(
                 std::string(name) + " does not apply: a .mrv file is kept as it is",
                 name));
-    video.wishes = read_video_wishes(inputs);
+    video.wishes = upload.wishes(inputs);
     if (const auto problem = inputs.refused()) return *problem;
     return video;
 }
 
-Outcome<VideoRequest> read_media(Inputs& inputs) {
+Outcome<VideoRequest> read_media(const Upload& upload, Inputs& inputs) {
     VideoRequest video;
     video.origin = VideoOrigin::kMedia;
-    video.wishes = read_video_wishes(inputs);
+    video.wishes = upload.wishes(inputs);
     if (const auto problem = inputs.refused()) return *problem;
     return video;
 }
 
-Reply post_bytes(const Context& context,
+Reply post_bytes(const Upload& upload,
                  const http::Request& request,
                  const std::string& type) {
     auto inputs = Inputs::of_query(request);
@@ -129,36 +175,37 @@ Reply post_bytes(const Context& context,
     const bool raw = type == "application/octet-stream" &&
                      (inputs->has("width") || inputs->has("height"));
     if (raw) {
-        auto video = read_raw(*inputs, request);
+        auto video = read_raw(upload, *inputs, request);
         if (!video) return video.problem();
-        return queue_video(context, *std::move(video), bytes_of(request.body));
+        return upload.queue(*std::move(video), bytes_of(request.body));
     }
-    auto clip = is_clip(bytes_of(request.body));
+    auto clip = is_clip(upload, bytes_of(request.body));
     if (!clip) return clip.problem();
     if (*clip) {
-        auto video = read_clip(*inputs);
+        auto video = read_clip(upload, *inputs);
         if (!video) return video.problem();
-        return queue_video(context, *std::move(video), bytes_of(request.body));
+        return upload.queue(*std::move(video), bytes_of(request.body));
     }
     if (ingest::is_video(first_of(request.body))) {
-        auto video = read_media(*inputs);
+        auto video = read_media(upload, *inputs);
         if (!video) return video.problem();
-        return queue_video(context, *std::move(video), bytes_of(request.body));
+        return upload.queue(*std::move(video), bytes_of(request.body));
     }
     if (type == "application/octet-stream") {
-        // Frames without their size.
-        auto video = read_raw(*inputs, request);
+        // Frames without their size, which is that of the video that they follow.
+        auto video = read_raw(upload, *inputs, request);
         if (!video) return video.problem();
+        if (upload.grows) return upload.queue(*std::move(video), bytes_of(request.body));
     }
     return unsupported(request.body, type);
 }
 
 // A file or a folder of the server.
-Reply post_path(const Context& context, Inputs& inputs) {
+Reply post_path(const Upload& upload, Inputs& inputs) {
     const std::string path = inputs.text("path").value_or("");
-    auto video = read_media(inputs);
+    auto video = read_media(upload, inputs);
     if (!video) return video.problem();
-    const auto real = context.media_roots.locate_path(path);
+    const auto real = upload.context.media_roots.locate_path(path);
     if (!real) {
         http::Problem problem = http::problem_of(real.error());
         problem.param = "path";
@@ -167,45 +214,45 @@ Reply post_path(const Context& context, Inputs& inputs) {
     video->path = path;
     std::error_code error;
     if (std::filesystem::is_directory(*real, error))
-        return queue_video(context, *std::move(video), {});
+        return upload.queue(*std::move(video), {});
     const auto file = MappedFile::open(*real);
     if (!file) return file.error();
     const Bytes bytes = (*file)->bytes();
-    auto clip = is_clip(bytes);
+    auto clip = is_clip(upload, bytes);
     if (!clip) return clip.problem();
     if (*clip) {
         // Its own file becomes the video's, so it is a copy.
-        auto kept = read_clip(inputs);
+        auto kept = read_clip(upload, inputs);
         if (!kept) return kept.problem();
-        return queue_video(context, *std::move(kept), bytes);
+        return upload.queue(*std::move(kept), bytes);
     }
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     if (!ingest::is_video(first_of(text))) return unsupported(text, "");
-    return queue_video(context, *std::move(video), {});
+    return upload.queue(*std::move(video), {});
 }
 
-Reply post_leaves(const Context& context, Inputs& inputs) {
+Reply post_leaves(const Upload& upload, Inputs& inputs) {
     VideoRequest video;
     video.origin = VideoOrigin::kLeaves;
-    video.wishes = read_video_wishes(inputs);
-    const video::FrameFormat format = read_frame_format(inputs);
+    video.wishes = upload.wishes(inputs);
+    const video::FrameFormat format = upload.frame_format(inputs);
     const nlohmann::json* frames = inputs.peek("frames");
     if (const auto problem = inputs.refused()) return *problem;
     auto leaves = read_leaf_frames(*frames, format);
     if (!leaves) return leaves.problem();
     video.format = leaves->format;
-    return queue_video(context, std::move(video), leaves->bytes);
+    return upload.queue(std::move(video), leaves->bytes);
 }
 
-Reply post_generator(const Context& context, Inputs& inputs) {
+Reply post_generator(const Upload& upload, Inputs& inputs) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
     VideoRequest video;
     video.origin = VideoOrigin::kGenerated;
     video.generator =
         inputs.one_of("generate", video::kGeneratorNames).value_or(std::string());
-    video.wishes = read_video_wishes(inputs);
-    const video::FrameFormat format = read_frame_format(inputs);
+    video.wishes = upload.wishes(inputs);
+    const video::FrameFormat format = upload.frame_format(inputs);
     video.parameters.width = format.width;
     video.parameters.height = format.height;
     video.parameters.rate = format.rate;
@@ -219,10 +266,12 @@ Reply post_generator(const Context& context, Inputs& inputs) {
     if (const auto problem = inputs.refused()) return *problem;
     const auto source = video::make_generator(video.generator, video.parameters);
     if (!source) return impossible(source.error());
-    return queue_video(context, std::move(video), {});
+    if (const auto problem = upload.refuses((*source)->format())) return *problem;
+    return upload.queue(std::move(video), {});
 }
 
-Reply post_json(const Context& context, const http::Request& request) {
+Reply post_json(const Upload& upload, const http::Request& request) {
+    const Context& context = upload.context;
     if (request.body.size() > context.max_body)
         return http::Problem{413,
                              "body_too_large",
@@ -242,9 +291,9 @@ Reply post_json(const Context& context, const http::Request& request) {
                              "only one of path, generate and frames may be given",
                              "path",
                              {}};
-    if (inputs->has("path")) return post_path(context, *inputs);
-    if (inputs->has("generate")) return post_generator(context, *inputs);
-    if (inputs->has("frames")) return post_leaves(context, *inputs);
+    if (inputs->has("path")) return post_path(upload, *inputs);
+    if (inputs->has("generate")) return post_generator(upload, *inputs);
+    if (inputs->has("frames")) return post_leaves(upload, *inputs);
     return http::Problem{400,
                          "no_source",
                          "there is nothing to make a video of: send frames, path or "
@@ -253,12 +302,35 @@ Reply post_json(const Context& context, const http::Request& request) {
                          {}};
 }
 
+Reply post(const Upload& upload, const http::Request& request) {
+    const std::string type = media_type_of(request);
+    return type == "application/json" ? post_json(upload, request)
+                                      : post_bytes(upload, request, type);
+}
+
 }  // namespace
 
 Reply post_video(const Context& context, const http::Request& request) {
-    const std::string type = media_type_of(request);
-    return type == "application/json" ? post_json(context, request)
-                                      : post_bytes(context, request, type);
+    return post({.context = context, .grows = {}, .format = {}}, request);
+}
+
+Reply post_frames(const Context& context, const http::Request& request) {
+    auto id = video_id_of(request);
+    if (!id) return id.problem();
+    auto video = context.videos.get(*id);
+    if (!video) return video.error();
+    if (video->delta != 0)
+        return Error{ErrorCode::kConflict,
+                     "video " + std::to_string(*id) + " has a delta of " +
+                         number_text(video->delta) +
+                         ": its frames are not those of its source, and so none can be "
+                         "appended",
+                     "delta"};
+    const auto shape = shape_of(*video);
+    if (!shape) return shape.error();
+    return post(
+        {.context = context, .grows = *std::move(video), .format = shape->format()},
+        request);
 }
 
 }  // namespace haarmony::server

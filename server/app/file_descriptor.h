@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -38,6 +41,22 @@ class FileDescriptor {
     const int number = errno;
     return {number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo,
             path + ": cannot be " + what + ": " + std::strerror(number)};
+}
+
+// All of the bytes, from an offset of the file; `path` for messages.
+[[nodiscard]] inline Result<void> write_at(const FileDescriptor& file,
+                                           std::uint64_t offset,
+                                           std::span<const std::byte> bytes,
+                                           const std::string& path) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return system_error(path, "written");
+        offset += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return {};
 }
 
 }  // namespace haarmony::server

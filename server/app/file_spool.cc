@@ -13,21 +13,6 @@ namespace {
 
 constexpr std::size_t kGathered = std::size_t{1} << 20;
 
-Result<void> write_at(int descriptor,
-                      std::uint64_t offset,
-                      std::span<const std::byte> bytes,
-                      const std::string& path) {
-    while (!bytes.empty()) {
-        const ssize_t written =
-            ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_error(path, "written");
-        offset += static_cast<std::uint64_t>(written);
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    return {};
-}
-
 }  // namespace
 
 Result<FileSpool> FileSpool::nameless(const std::string& folder) {
@@ -54,7 +39,7 @@ Result<std::uint64_t> FileSpool::append(std::span<const std::byte> bytes) {
         if (Result<void> flushed = flush(); !flushed) return flushed.error();
     }
     if (bytes.size() > kGathered) {
-        if (Result<void> put = write_at(file_.get(), written_, bytes, path_); !put)
+        if (Result<void> put = write_at(file_, written_, bytes, path_); !put)
             return put.error();
         written_ += bytes.size();
     } else {
@@ -64,7 +49,7 @@ Result<std::uint64_t> FileSpool::append(std::span<const std::byte> bytes) {
 }
 
 Result<void> FileSpool::flush() {
-    Result<void> put = write_at(file_.get(), written_, waiting_, path_);
+    Result<void> put = write_at(file_, written_, waiting_, path_);
     if (!put) return put;
     written_ += waiting_.size();
     waiting_.clear();

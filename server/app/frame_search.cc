@@ -70,13 +70,11 @@ Result<void> FrameSearch::take_new(schema::VideoStore& videos, Places& places) {
 }
 
 Result<void> FrameSearch::drop_gone(schema::VideoStore& videos, Places& places) {
-    const auto rows = all_videos(videos);
-    if (!rows) return rows.error();
-    std::set<std::int64_t> there;
-    for (const schema::Video& video : *rows) there.insert(video.id);
+    const auto there = videos.frame_ids();
+    if (!there) return there.error();
     std::vector<ImageId> gone;
     for (auto place = places.begin(); place != places.end();) {
-        if (there.contains(place->second.video)) {
+        if (std::binary_search(there->begin(), there->end(), place->first)) {
             ++place;
             continue;
         }
@@ -153,6 +151,11 @@ Result<FrameMatches> FrameSearch::search(const QueryPicture& picture,
             }
             // Removed since the snapshot was taken.
             if (!row->second) continue;
+            // In this order: a frame that is still there has its place in the video as that
+            // was read, also if frames are appended meanwhile.
+            const auto there = (*connection)->videos().has_frame(id);
+            if (!there) return there.error();
+            if (!*there) continue;
             matches.frames.push_back(
                 {id, *row->second, where.time_level, where.node, candidate});
             if (static_cast<int>(matches.frames.size()) == limit) return matches;

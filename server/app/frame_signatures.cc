@@ -74,6 +74,7 @@ std::vector<std::int64_t> shots_of(const std::vector<double>& differences) {
 
 Result<std::vector<schema::FrameSignature>> frame_signatures(
     const video::TimeTree& clip,
+    std::int64_t kept_frames,
     const std::function<bool()>& go_on) {
     const auto shots = find_shots(clip, go_on);
     if (!shots) return shots.error();
@@ -82,7 +83,12 @@ Result<std::vector<schema::FrameSignature>> frame_signatures(
     for (int level = 0; level <= shape.time_levels(); ++level) {
         for (std::int64_t node = 0; node < shape.nodes_at(level); ++node) {
             const video::NodeAddress at{level, node};
-            if (!clip.stored(video::siblings_of(at))) continue;
+            const video::SiblingAddress siblings = video::siblings_of(at);
+            if (level > 0 && (siblings.index + 1) << (shape.time_levels() - level + 1) <=
+                                 kept_frames) {
+                continue;
+            }
+            if (!clip.stored(siblings)) continue;
             const video::FrameRange frames = shape.frames_of(at);
             const std::int64_t shot = (*shots)[static_cast<std::size_t>(frames.first)];
             if ((*shots)[static_cast<std::size_t>(frames.end - 1)] != shot) continue;

@@ -40,8 +40,11 @@ inline constexpr int kShotMemory = 8;  // how many differences are the last ones
 // Which shot each frame belongs to, from 0. differences[i] is that of frame i + 1 from frame i.
 [[nodiscard]] std::vector<std::int64_t> shots_of(const std::vector<double>& differences);
 
+// Without those of the halves of time nodes that are complete in the first `kept_frames`:
+// appended frames change nothing of these. Shots of old frames stay what they were, too.
 [[nodiscard]] Result<std::vector<schema::FrameSignature>> frame_signatures(
     const video::TimeTree& clip,
+    std::int64_t kept_frames,
     const std::function<bool()>& go_on);
 
 }  // namespace haarmony::server

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "engine/video/accounting.h"
+#include "engine/video/append.h"
 #include "engine/video/build.h"
 #include "engine/video/mrv_clip.h"
 #include "engine/video/mrv_writer.h"
 #include "server/app/file_spool.h"
 #include "server/app/frame_signatures.h"
+#include "server/app/grown_file.h"
 #include "server/app/mapped_file.h"
 
 namespace haarmony::server {
@@ -82,19 +84,37 @@ Result<schema::Video> describe(const video::MrvClip& clip,
     return row;
 }
 
-void tell(JobContext& job, const schema::Video& video) {
+void tell(JobContext& job, const schema::Video& video, bool is_new) {
     job.counts().seen = video.frames;
-    job.counts().added = 1;
+    job.counts().added = is_new ? 1 : 0;
     job.set_total(video.frames);
     job.note("video", video.id);
 }
 
 // Whether an earlier run of the job has come to its end already.
-Result<bool> made_before(JobContext& job, VideoService& videos) {
+Result<bool> made_before(JobContext& job, VideoService& videos, bool is_new) {
     const auto before = videos.made_by(job.job().id);
     if (!before) return before.error();
-    if (before->has_value()) tell(job, **before);
+    if (before->has_value()) tell(job, **before, is_new);
     return before->has_value();
+}
+
+video::BuildObserver progress_of(JobContext& job) {
+    return [&job](std::int64_t frames, std::int64_t nodes) {
+        job.counts().seen = frames;
+        job.counts().updated = nodes;
+        job.progress();
+        return !job.cancelled();
+    };
+}
+
+Result<std::vector<schema::FrameSignature>> signatures_of(JobContext& job,
+                                                          const video::TimeTree& clip,
+                                                          std::int64_t kept_frames) {
+    return frame_signatures(clip, kept_frames, [&job] {
+        job.progress();
+        return !job.cancelled();
+    });
 }
 
 // Written, and on the disk.
@@ -112,15 +132,70 @@ Result<void> write_clip(JobContext& job,
     video::BuildOptions options;
     options.delta = delta_units(wishes.delta);
     options.max_frames = wishes.max_frames;
-    options.progress = [&job](std::int64_t frames, std::int64_t nodes) {
-        job.counts().seen = frames;
-        job.counts().updated = nodes;
-        job.progress();
-        return !job.cancelled();
-    };
+    options.progress = progress_of(job);
     const auto shape = video::build(source, *averages, writer, options);
     if (!shape) return shape.error();
     return file->sync();
+}
+
+// A copy of the clip with the frames behind its own, on the disk.
+Result<void> write_grown(JobContext& job,
+                         const VideoFiles& files,
+                         const schema::Video& before,
+                         const std::string& path,
+                         video::FrameSource& source,
+                         std::int64_t most) {
+    const std::string published = files.clip_path(before.id, before.revision);
+    const auto file = MappedFile::open(published);
+    // A client is not told where it was.
+    if (!file && file.error().code == ErrorCode::kNotFound)
+        return Error{ErrorCode::kNotFound,
+                     "video " + std::to_string(before.id) + " has been removed",
+                     "video"};
+    if (!file) return file.error();
+    auto grown = GrownFile::copy_of(published, path);
+    if (!grown) return grown.error();
+    const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
+    if (!clip) return clip.error();
+    auto averages = FileSpool::nameless(files.folder());
+    if (!averages) return averages.error();
+    auto waiting = FileSpool::nameless(files.folder());
+    if (!waiting) return waiting.error();
+    video::MrvWriter writer((*clip)->front(), *waiting, *grown);
+    video::AppendOptions options;
+    options.max_frames = most;
+    options.progress = progress_of(job);
+    const auto shape = video::append(**clip, source, *averages, writer, options);
+    if (!shape) return shape.error();
+    return {};
+}
+
+Result<schema::Video> keep_grown(JobContext& job,
+                                 VideoService& videos,
+                                 const schema::Video& before,
+                                 const std::string& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
+    if (!clip) return clip.error();
+    auto row = describe(**clip, (*file)->bytes().size(), {});
+    if (!row) return row.error();
+    schema::GrownVideo grown;
+    grown.before = before;
+    grown.now = *std::move(row);
+    grown.now.job = job.job().id;
+    grown.time_levels = (*clip)->shape().time_levels();
+    const auto old = video::ClipShape::make((*clip)->shape().format(), before.frames);
+    if (!old) return old.error();
+    grown.time_levels_before = old->time_levels();
+    std::vector<schema::FrameSignature> frames;
+    if (before.indexed) {
+        auto signatures = signatures_of(job, **clip, before.frames);
+        if (!signatures) return signatures.error();
+        frames = *std::move(signatures);
+    }
+    if (job.cancelled()) return Error{ErrorCode::kUnavailable, "the job was stopped"};
+    return videos.grow(path, grown, frames);
 }
 
 }  // namespace
@@ -129,7 +204,7 @@ Result<void> keep_video(JobContext& job,
                         VideoService& videos,
                         const std::string& path,
                         const VideoWishes& wishes) {
-    const auto before = made_before(job, videos);
+    const auto before = made_before(job, videos, true);
     if (!before) return before.error();
     if (*before) return {};
     const auto file = MappedFile::open(path);
@@ -141,17 +216,14 @@ Result<void> keep_video(JobContext& job,
     row->job = job.job().id;
     std::vector<schema::FrameSignature> frames;
     if (wishes.index) {
-        auto signatures = frame_signatures(**clip, [&job] {
-            job.progress();
-            return !job.cancelled();
-        });
+        auto signatures = signatures_of(job, **clip, 0);
         if (!signatures) return signatures.error();
         frames = *std::move(signatures);
     }
     if (job.cancelled()) return {};
     const auto added = videos.add(path, *row, frames);
     if (!added) return added.error();
-    tell(job, *added);
+    tell(job, *added, true);
     return {};
 }
 
@@ -160,13 +232,41 @@ Result<void> build_video(JobContext& job,
                          video::FrameSource& source,
                          const VideoWishes& wishes,
                          std::optional<std::int64_t> frames) {
-    const auto before = made_before(job, videos);
+    const auto before = made_before(job, videos, true);
     if (!before) return before.error();
     if (*before) return {};
     if (frames) job.set_total(*frames);
     const std::string path = videos.files().building_path(job.job().id);
     Result<void> done = write_clip(job, videos.files(), source, wishes);
     if (done) done = keep_video(job, videos, path, wishes);
+    // Gone where it was published.
+    ::unlink(path.c_str());
+    if (job.was_interrupted()) return {};
+    return done;
+}
+
+Result<void> append_to_video(JobContext& job,
+                             VideoService& videos,
+                             std::int64_t id,
+                             video::FrameSource& source,
+                             std::int64_t most,
+                             std::optional<std::int64_t> frames) {
+    const auto before = made_before(job, videos, false);
+    if (!before) return before.error();
+    if (*before) return {};
+    const auto video = videos.get(id);
+    if (!video) return video.error();
+    if (frames) {
+        const std::int64_t more = most == 0 ? *frames : std::min(*frames, most);
+        job.set_total(video->frames + more);
+    }
+    const std::string path = videos.files().building_path(job.job().id);
+    Result<void> done = write_grown(job, videos.files(), *video, path, source, most);
+    if (done) {
+        const auto grown = keep_grown(job, videos, *video, path);
+        if (grown) tell(job, *grown, false);
+        if (!grown) done = grown.error();
+    }
     // Gone where it was published.
     ::unlink(path.c_str());
     if (job.was_interrupted()) return {};

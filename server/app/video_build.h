@@ -1,9 +1,10 @@
-// Frames become a video: built into a file, counted, and kept with its row.
+// Frames become a video, or go on with one: built into a file, counted, and kept with its row.
 //
 //   video_job -> [video_build] -> engine/video/build.h, mrv_writer.h
 //                     '--> video_service
 //
-// Counts   seen: frames read; updated: time nodes written; added: 1 at the end.
+// Counts   seen: frames read, those of a video that grows among them; updated: time nodes
+//          written; added: 1 at the end of a new video.
 // Result   video: its id.
 // Errors   those of the source and of the build. A job that was interrupted ends without an
 //          error and without a video.
@@ -35,5 +36,16 @@ namespace haarmony::server {
                                       VideoService& videos,
                                       const std::string& path,
                                       const VideoWishes& wishes);
+
+// The video's frames, and then those of `source` (at most `most`, unless that is 0; `frames`
+// where it is known how many there will be): its file is copied, frames are appended to the copy, and the copy takes its place. A name or a delta
+// is not asked for; signatures are made where the video has some.
+// Errors: as video::append(); kNotFound: the video has been removed meanwhile.
+[[nodiscard]] Result<void> append_to_video(JobContext& job,
+                                           VideoService& videos,
+                                           std::int64_t id,
+                                           video::FrameSource& source,
+                                           std::int64_t most,
+                                           std::optional<std::int64_t> frames);
 
 }  // namespace haarmony::server

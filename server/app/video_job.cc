@@ -7,6 +7,7 @@
 
 #include "engine/video/generate/generator.h"
 #include "engine/video/mrv_clip.h"
+#include "engine/video/ops/clip_frames.h"
 #include "engine/video/ops/compose.h"
 #include "server/app/leaf_frames.h"
 #include "server/app/mapped_file.h"
@@ -30,6 +31,18 @@ Result<std::shared_ptr<const MappedFile>> open_input(const VideoFiles& files,
     return file;
 }
 
+// A new video, or an old one that goes on.
+Result<void> make_video(JobContext& job,
+                        VideoService& videos,
+                        const VideoRequest& request,
+                        video::FrameSource& source,
+                        std::optional<std::int64_t> frames) {
+    if (!request.append_to)
+        return build_video(job, videos, source, request.wishes, frames);
+    return append_to_video(
+        job, videos, *request.append_to, source, request.wishes.max_frames, frames);
+}
+
 Result<void> build_raw(JobContext& job,
                        VideoService& videos,
                        const VideoRequest& request) {
@@ -39,7 +52,7 @@ Result<void> build_raw(JobContext& job,
     auto count = static_cast<std::int64_t>((*input)->bytes().size() /
                                            raw_frame_bytes(request.format));
     if (request.wishes.max_frames > 0) count = std::min(count, request.wishes.max_frames);
-    return build_video(job, videos, frames, request.wishes, count);
+    return make_video(job, videos, request, frames, count);
 }
 
 Result<void> build_leaves(JobContext& job,
@@ -48,7 +61,7 @@ Result<void> build_leaves(JobContext& job,
     const auto input = open_input(videos.files(), request.input);
     if (!input) return input.error();
     LeafFrames frames((*input)->bytes(), request.format);
-    return build_video(job, videos, frames, request.wishes, std::nullopt);
+    return make_video(job, videos, request, frames, std::nullopt);
 }
 
 Result<void> keep_clip(JobContext& job,
@@ -68,12 +81,26 @@ Result<void> keep_clip(JobContext& job,
         job, videos, videos.files().input_path(request.input), request.wishes);
 }
 
+Result<void> append_clip(JobContext& job,
+                         VideoService& videos,
+                         const VideoRequest& request) {
+    const auto input = open_input(videos.files(), request.input);
+    if (!input) return input.error();
+    const auto clip = video::MrvClip::open((*input)->bytes(), kCheckingCache);
+    if (!clip) return clip.error();
+    if (const auto whole = (*clip)->verify(); !whole) return whole;
+    const std::int64_t count = (*clip)->shape().frames();
+    const auto frames = video::range_frames(**clip, {0, count});
+    if (!frames) return frames.error();
+    return make_video(job, videos, request, **frames, count);
+}
+
 Result<void> build_generated(JobContext& job,
                              VideoService& videos,
                              const VideoRequest& request) {
     const auto source = video::make_generator(request.generator, request.parameters);
     if (!source) return source.error();
-    return build_video(job, videos, **source, request.wishes, std::nullopt);
+    return make_video(job, videos, request, **source, std::nullopt);
 }
 
 Result<void> build_composed(JobContext& job,
@@ -107,7 +134,7 @@ Result<void> build_media(JobContext& job,
     }
     const auto source = open_media(path, media_roots);
     if (!source) return source.error();
-    return build_video(job, videos, **source, request.wishes, std::nullopt);
+    return make_video(job, videos, request, **source, std::nullopt);
 }
 
 Result<void> run(JobContext& job, VideoService& videos, const MediaRoots& media_roots) {
@@ -119,7 +146,8 @@ Result<void> run(JobContext& job, VideoService& videos, const MediaRoots& media_
         case VideoOrigin::kLeaves:
             return build_leaves(job, videos, *request);
         case VideoOrigin::kClip:
-            return keep_clip(job, videos, *request);
+            return request->append_to ? append_clip(job, videos, *request)
+                                      : keep_clip(job, videos, *request);
         case VideoOrigin::kGenerated:
             return build_generated(job, videos, *request);
         case VideoOrigin::kComposed:

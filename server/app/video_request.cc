@@ -62,6 +62,7 @@ std::string to_text(const VideoRequest& request) {
                 {"index", request.wishes.index}};
     if (!request.input.empty()) object["input"] = request.input;
     if (!request.path.empty()) object["path"] = request.path;
+    if (request.append_to) object["append_to"] = *request.append_to;
     if (request.format.width > 0) {
         object["width"] = request.format.width;
         object["height"] = request.format.height;
@@ -94,6 +95,8 @@ Result<VideoRequest> video_request_of(std::string_view text) {
         object.at("index").get_to(request.wishes.index);
         request.input = object.value("input", "");
         request.path = object.value("path", "");
+        if (object.contains("append_to"))
+            request.append_to = object["append_to"].get<std::int64_t>();
         if (object.contains("width")) {
             object.at("width").get_to(request.format.width);
             object.at("height").get_to(request.format.height);

@@ -45,6 +45,8 @@ struct VideoRequest {
     video::GeneratorParameters parameters;
     CompositionRequest composition;
     std::string path = {};  // below a media root, as the client named it
+    // The video whose frames these follow; a new one where there is none.
+    std::optional<std::int64_t> append_to = {};
 };
 
 [[nodiscard]] std::string to_text(const VideoRequest& request);

@@ -165,8 +165,15 @@ Result<std::shared_ptr<const OpenVideo>> VideoService::clip(std::int64_t id) {
         }
     }
     auto opened = open_video(files_, *row, options_.clip_cache_bytes);
-    // Removed since the row was read: nobody's fault.
-    if (!opened && !get(id)) return get(id).error();
+    // Removed or grown since the row was read: nobody's fault.
+    constexpr int kTries = 3;
+    for (int tries = 1; !opened && tries < kTries; ++tries) {
+        const auto now = get(id);
+        if (!now) return now.error();
+        if (now->revision == row->revision) break;
+        row = now;
+        opened = open_video(files_, *row, options_.clip_cache_bytes);
+    }
     if (!opened) return logged(std::move(opened));
     const std::lock_guard lock(mutex_);
     held_.insert_or_assign(id, Held{*opened, ++uses_});
@@ -193,6 +200,31 @@ Result<schema::Video> VideoService::add(const std::string& built,
     return logged(videos.add(video, frames, [&](const schema::Video& stored) {
         return files_.publish(built, stored);
     }));
+}
+
+Result<schema::Video> VideoService::grow(const std::string& built,
+                                         const schema::GrownVideo& video,
+                                         std::span<const schema::FrameSignature> frames) {
+    const auto grown = [&]() -> Result<schema::Video> {
+        const std::lock_guard lock(writer_mutex_);
+        schema::VideoStore& videos = writer_->videos();
+        if (video.now.job) {
+            auto before = videos.made_by(*video.now.job);
+            if (!before) return logged(Result<schema::Video>(before.error()));
+            if (*before) return **std::move(before);
+        }
+        return logged(videos.grow(video, frames, [&](const schema::Video& stored) {
+            return files_.publish(built, stored);
+        }));
+    }();
+    if (!grown || grown->revision == video.before.revision) return grown;
+    {
+        const std::lock_guard lock(mutex_);
+        held_.erase(video.before.id);
+    }
+    replies_.forget(video.before.id);
+    files_.remove_clip(video.before);
+    return grown;
 }
 
 }  // namespace haarmony::server

@@ -5,7 +5,7 @@
 //   video_job -> [video_service]
 //
 // A clip that somebody looks at stays readable until he lets go of it, also when the video
-// is removed meanwhile.
+// is removed or grows meanwhile.
 //
 // Errors   the store's; kUndecodable for a file that is damaged, kIo for one that is gone.
 // Threads  every member from any thread.
@@ -72,6 +72,12 @@ class VideoService {
     [[nodiscard]] Result<schema::Video> add(
         const std::string& built,
         const schema::Video& video,
+        std::span<const schema::FrameSignature> frames);
+    // The file `built` takes the place of the video's clip. What job `video.now.job` has done
+    // already is answered instead of being done again. Requires: its content is on the disk.
+    [[nodiscard]] Result<schema::Video> grow(
+        const std::string& built,
+        const schema::GrownVideo& video,
         std::span<const schema::FrameSignature> frames);
     [[nodiscard]] Result<std::optional<schema::Video>> made_by(std::int64_t job);
 

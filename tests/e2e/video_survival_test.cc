@@ -84,6 +84,50 @@ TEST(VideoSurvival, ABuildThatWasKilledIsDoneAfterTheNextStart) {
     EXPECT_TRUE(last == noise().substr(noise().size() - std::size_t{4} * kSide * kSide));
 }
 
+// Wherever the kill meets it, the video is the old one or the new one, and in the end the new.
+TEST(VideoSurvival, AnAppendThatWasKilledIsDoneAfterTheNextStartAndOnce) {
+    const testing::TemporaryFolder folder;
+    const std::string database = folder.file("haarmony.db");
+    const std::vector<std::string> quiet{"--log-level", "warn"};
+    const std::size_t frame_bytes = std::size_t{4} * kSide * kSide;
+    const std::string all = noise();
+    std::string address;
+    std::string old_revision;
+    {
+        Daemon daemon(database, quiet);
+        auto curl = daemon.client();
+        const auto first = curl.post(
+            target(), all.substr(0, 3 * frame_bytes), "application/octet-stream");
+        ASSERT_EQ(first.status, 202) << first.body;
+        ASSERT_EQ(job_once(daemon, first.headers.at("location"), "done")["video"], 1);
+        old_revision = json::parse(curl.get("/videos/1").body)["revision"];
+        const auto queued = curl.post(
+            "/videos/1/frames", all.substr(3 * frame_bytes), "application/octet-stream");
+        ASSERT_EQ(queued.status, 202) << queued.body;
+        address = queued.headers.at("location");
+        EXPECT_EQ(job_once(daemon, address, "running")["state"], "running");
+        daemon.kill_hard();
+    }
+    Daemon daemon(database, quiet);
+    auto curl = daemon.client();
+    const json job = job_once(daemon, address, "done");
+    ASSERT_EQ(job["state"], "done") << job;
+    EXPECT_EQ(job["video"], 1);
+    const json video = json::parse(curl.get("/videos/1").body);
+    EXPECT_EQ(video["frames"], kFrames);
+    EXPECT_NE(video["revision"], old_revision);
+    EXPECT_EQ(
+        files_beside(database),
+        std::set<std::string>{"1-" + video["revision"].get<std::string>() + ".mrv"});
+    for (const int t : {0, 2, 3, kFrames - 1}) {
+        const std::string shown =
+            curl.get("/video/frame?format=rgba&video=1&frame=" + std::to_string(t)).body;
+        EXPECT_TRUE(shown ==
+                    all.substr(static_cast<std::size_t>(t) * frame_bytes, frame_bytes))
+            << t;
+    }
+}
+
 TEST(VideoSurvival, AVideoThatWasConfirmedOutlivesAKillAndADeletedOneDoesNot) {
     const testing::TemporaryFolder folder;
     const std::string database = folder.file("haarmony.db");

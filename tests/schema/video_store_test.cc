@@ -80,6 +80,91 @@ TEST_F(Videos, AJobFindsTheOneThatItMadeAndMakesNoOther) {
     EXPECT_EQ(expect(store_.count()), 2);
 }
 
+// Of a clip of three frames, T = 2: the root, (0, 1), (2), and the two halves of (0, 1).
+std::vector<FrameSignature> three_frames() {
+    std::vector<FrameSignature> frames;
+    for (const auto& [level, node] : std::vector<std::pair<int, std::int64_t>>{
+             {0, 0}, {1, 0}, {1, 1}, {2, 0}, {2, 1}})
+        frames.push_back(
+            {0, 0, level, node, 7, {static_cast<std::uint8_t>(10 * level + node)}});
+    return frames;
+}
+
+TEST_F(Videos, ThatGrowKeepTheSignaturesBelowWhatWasComplete) {
+    Video three = video("a");
+    three.frames = 3;
+    three.job = 4;
+    GrownVideo grown;
+    grown.before = add(three, three_frames());
+    const Video other = add(video("b"), {frame(0, 9)});
+    grown.now = grown.before;
+    grown.now.revision = "0123456789abcdef";
+    grown.now.frames = 5;
+    grown.now.storage = {1, 2, 3, 4, 5, 6, 7};
+    grown.now.job = 8;
+    grown.time_levels_before = 2;
+    grown.time_levels = 3;
+    std::string heard;
+    const Video stored =
+        expect(store_.grow(grown, std::vector{frame(3, 8)}, [&](const Video& row) {
+            heard = row.revision;
+            return Result<void>();
+        }));
+    EXPECT_EQ(heard, "0123456789abcdef");
+    EXPECT_EQ(stored.id, grown.before.id);
+    EXPECT_EQ(stored.name, "a");
+    EXPECT_EQ(stored.created_at, grown.before.created_at);
+    const Video found = expect(store_.get(stored.id));
+    EXPECT_EQ(found.revision, "0123456789abcdef");
+    EXPECT_EQ(found.frames, 5);
+    EXPECT_EQ(found.storage, grown.now.storage);
+    EXPECT_EQ(expect(store_.made_by(8))->id, stored.id);
+    EXPECT_FALSE(expect(store_.made_by(4)).has_value());
+    // The halves of (0, 1), one time level deeper, behind all that there was, and the new one.
+    const auto rows = expect(store_.frames_after(0, 100));
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0].video, other.id);
+    std::vector<std::pair<int, std::int64_t>> places;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].video, stored.id);
+        EXPECT_GT(rows[i].id, rows[0].id);
+        places.emplace_back(rows[i].time_level, rows[i].node);
+    }
+    EXPECT_EQ(places,
+              (std::vector<std::pair<int, std::int64_t>>{{3, 0}, {3, 1}, {4, 3}}));
+    EXPECT_EQ(rows[1].signature, std::vector<std::uint8_t>{20});
+    EXPECT_EQ(rows[1].shot, 7);
+    const auto ids = expect(store_.frame_ids());
+    ASSERT_EQ(ids.size(), 4U);
+    for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(ids[i], rows[i].id);
+    EXPECT_TRUE(expect(store_.has_frame(ids[0])));
+    EXPECT_FALSE(expect(store_.has_frame(1)));
+}
+
+TEST_F(Videos, ThatHaveChangedOrAreGoneDoNotGrow) {
+    GrownVideo grown;
+    grown.before = add(video("a"), {frame(0, 1)});
+    grown.now = grown.before;
+    grown.now.revision = "0123456789abcdef";
+    GrownVideo other = grown;
+    other.before.revision = "ffffffffffffffff";
+    auto refused = store_.grow(other, {}, agree);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kNotFound);
+    EXPECT_THAT(refused.error().message, HasSubstr("of revision ffffffffffffffff"));
+    refused = store_.grow(grown, {}, [](const Video&) -> Result<void> {
+        return Error{ErrorCode::kIo, "the disk is full"};
+    });
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("the disk is full"));
+    EXPECT_EQ(expect(store_.get(1)).revision, grown.before.revision);
+    EXPECT_EQ(expect(store_.frames_after(0, 9)).size(), 1U);
+    expect(store_.remove(1));
+    refused = store_.grow(grown, {}, agree);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kNotFound);
+}
+
 TEST_F(Videos, AreListedInPages) {
     for (const char* name : {"a", "b", "c"}) add(video(name));
     const auto page = expect(store_.list(2, 0));

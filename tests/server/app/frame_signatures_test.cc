@@ -4,6 +4,7 @@
 
 #include <random>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "engine/image/signature_codec.h"
@@ -70,7 +71,7 @@ TEST(FrameSignatures, AreThoseOfThePicturesAndOfNoStretchAcrossACut) {
     for (int i = 0; i < 3; ++i) clip.frames.push_back(scene(1, i));
     for (int i = 0; i < 3; ++i) clip.frames.push_back(scene(2, i));
     const auto tree = plain_clip(clip);
-    const auto rows = frame_signatures(*tree, always);
+    const auto rows = frame_signatures(*tree, 0, always);
     ASSERT_TRUE(rows) << rows.error().message;
     std::set<std::pair<int, std::int64_t>> places;
     for (const schema::FrameSignature& row : *rows) {
@@ -90,11 +91,49 @@ TEST(FrameSignatures, AreThoseOfThePicturesAndOfNoStretchAcrossACut) {
     EXPECT_FALSE(places.contains({0, 0}));
 }
 
+// Those that a clip of fewer frames had, and those that are left out for it, are all.
+TEST(FrameSignatures, OfAppendedFramesAreWhatTheOldOnesHaveNotSaid) {
+    RawClip clip;
+    clip.format = {32, 32, {25, 1}};
+    for (int i = 0; i < 11; ++i) clip.frames.push_back(scene(i < 6 ? 1 : 2, i));
+    const auto tree = plain_clip(clip);
+    const auto all = frame_signatures(*tree, 0, always);
+    ASSERT_TRUE(all);
+    const auto place = [](const schema::FrameSignature& row) {
+        return std::tuple(row.time_level, row.node, row.shot, row.signature);
+    };
+    std::set<decltype(place((*all)[0]))> want;
+    for (const schema::FrameSignature& row : *all) want.insert(place(row));
+    for (std::size_t kept = 1; kept < 11; ++kept) {
+        RawClip shorter = clip;
+        shorter.frames.resize(kept);
+        const auto old_tree = plain_clip(shorter);
+        const auto old_rows = frame_signatures(*old_tree, 0, always);
+        const auto new_rows =
+            frame_signatures(*tree, static_cast<std::int64_t>(kept), always);
+        ASSERT_TRUE(old_rows && new_rows);
+        EXPECT_LT(new_rows->size(), all->size() + (kept < 2 ? 1 : 0)) << kept;
+        std::set<decltype(place((*all)[0]))> got;
+        for (const schema::FrameSignature& row : *new_rows) got.insert(place(row));
+        const int old_levels = old_tree->shape().time_levels();
+        for (schema::FrameSignature row : *old_rows) {
+            // As VideoStore::grow() keeps them.
+            if (row.time_level == 0) continue;
+            const std::int64_t end = (row.node / 2 + 1)
+                                     << (old_levels - row.time_level + 1);
+            if (end > static_cast<std::int64_t>(kept)) continue;
+            row.time_level += tree->shape().time_levels() - old_levels;
+            EXPECT_TRUE(got.insert(place(row)).second) << kept;
+        }
+        EXPECT_EQ(got, want) << kept;
+    }
+}
+
 TEST(FrameSignatures, StopWhenTheyAreToldTo) {
     const auto tree = plain_clip(video::testing::random_clip(8, 8, 3, 1));
     for (int steps = 0; steps < 4; ++steps) {
         int left = steps;
-        const auto rows = frame_signatures(*tree, [&left] { return left-- > 0; });
+        const auto rows = frame_signatures(*tree, 0, [&left] { return left-- > 0; });
         ASSERT_FALSE(rows) << steps;
         EXPECT_EQ(rows.error().code, ErrorCode::kUnavailable);
     }

@@ -12,6 +12,7 @@ TEST(VideoRequest, ComesBackFromItsText) {
     request.origin = VideoOrigin::kComposed;
     request.wishes = {"a \"name\"", 0.1, 12, true};
     request.input = "input-7";
+    request.append_to = 12;
     request.format = {100, 60, {30'000, 1'001}};
     LayerRequest layer;
     layer.video = 3;
@@ -32,6 +33,7 @@ TEST(VideoRequest, ComesBackFromItsText) {
     EXPECT_EQ(back->wishes.max_frames, 12);
     EXPECT_TRUE(back->wishes.index);
     EXPECT_EQ(back->input, request.input);
+    EXPECT_EQ(back->append_to, 12);
     EXPECT_EQ(back->format, request.format);
     ASSERT_EQ(back->composition.layers.size(), 2u);
     const LayerRequest& first = back->composition.layers[0];
