@@ -22,17 +22,6 @@ TEST(ByteStream, VarintsComeBack) {
     }
 }
 
-TEST(ByteStream, ZigzagKeepsSmallNumbersSmall) {
-    using Limits = std::numeric_limits<std::int64_t>;
-    for (const std::int64_t value : {std::int64_t{0},
-                                     std::int64_t{-1},
-                                     std::int64_t{63},
-                                     Limits::min(),
-                                     Limits::max()})
-        EXPECT_EQ(unzigzag(zigzag(value)), value);
-    EXPECT_EQ(zigzag(-64), 127U);
-}
-
 TEST(ByteStream, BytesAreTakenFromTheFront) {
     const std::array<std::byte, 3> bytes{std::byte{5}, std::byte{6}, std::byte{7}};
     ByteReader in(bytes);
