@@ -1,5 +1,6 @@
 #include "engine/video/decoded_cache.h"
 
+#include <iterator>
 #include <utility>
 
 namespace haarmony::video {
@@ -19,7 +20,32 @@ class OnLeave {
 
 }  // namespace
 
-void DecodedCache::keep(std::uint64_t key,
+std::size_t DecodedCache::Hash::operator()(const Key& key) const {
+    // The golden ratio spreads the owners over all bits; parts differ in the low ones.
+    constexpr std::uint64_t kSpread = 0x9E37'79B9'7F4A'7C15;
+    return static_cast<std::size_t>(key.owner * kSpread ^ key.part);
+}
+
+DecodedCache::Owner DecodedCache::add_owner() {
+    const std::lock_guard lock(mutex_);
+    return next_owner_++;
+}
+
+void DecodedCache::remove_owner(Owner owner) {
+    std::list<Kept> dropped;  // destroyed behind the lock
+    const std::lock_guard lock(mutex_);
+    for (auto kept = kept_.begin(); kept != kept_.end();) {
+        const auto next = std::next(kept);
+        if (kept->key.owner == owner) {
+            bytes_ -= entries_.at(kept->key).bytes;
+            dropped.splice(dropped.begin(), kept_, kept);
+        }
+        kept = next;
+    }
+    std::erase_if(entries_, [&](const auto& item) { return item.first.owner == owner; });
+}
+
+void DecodedCache::keep(const Key& key,
                         Entry& entry,
                         Value value,
                         std::list<Kept>& dropped) {
@@ -48,7 +74,7 @@ void DecodedCache::forget_dead() {
     });
 }
 
-Result<DecodedCache::Value> DecodedCache::get(std::uint64_t key, const Decode& decode) {
+Result<DecodedCache::Value> DecodedCache::get(const Key& key, const Decode& decode) {
     std::list<Kept> dropped;  // destroyed behind the lock
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -1,6 +1,7 @@
 #include "engine/video/mrv_clip.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <optional>
 #include <string>
@@ -18,17 +19,22 @@ namespace {
 // One of the time trees that the clip has been: its siblings depend on each other alone.
 class Generation {
   public:
-    // `first_key`: the ordinals of all generations count on, so that each has keys of its own.
+    // Keys begin with `first_key`: the ordinals of all generations count on. `decoded` counts
+    // what is decoded.
     Generation(std::span<const std::byte> file,
                const ClipShape& shape,
                const MrvIndex& index,
                std::size_t first_key,
-               DecodedCache& cache)
+               DecodedCache& cache,
+               DecodedCache::Owner owner,
+               std::atomic<std::uint64_t>& decoded)
         : file_(file),
           shape_(shape),
           index_(index),
           first_key_(first_key),
-          cache_(cache) {}
+          cache_(cache),
+          owner_(owner),
+          decoded_(decoded) {}
 
     [[nodiscard]] const ClipShape& shape() const { return shape_; }
     [[nodiscard]] std::optional<std::size_t> find(const SiblingAddress& address) const {
@@ -73,8 +79,10 @@ class Generation {
     }
 
   private:
-    [[nodiscard]] std::uint64_t key(int row, std::size_t ordinal) const {
-        return std::uint64_t{first_key_ + ordinal} << 8 | static_cast<std::uint64_t>(row);
+    [[nodiscard]] DecodedCache::Key key(int row, std::size_t ordinal) const {
+        return {
+            owner_,
+            std::uint64_t{first_key_ + ordinal} << 8 | static_cast<std::uint64_t>(row)};
     }
 
     [[nodiscard]] std::vector<std::size_t> ordinals_to(std::size_t ordinal) const {
@@ -138,6 +146,7 @@ class Generation {
         auto decoded = std::make_shared<SiblingNodes>();
         if (Result<void> done = decode_time_nodes(*bytes, around, *decoded); !done)
             return in_chunk(ordinal, 0, done.error().message);
+        ++decoded_;
         return DecodedCache::Decoded{std::move(decoded), sizeof(SiblingNodes)};
     }
 
@@ -178,6 +187,7 @@ class Generation {
         if (Result<void> done = decode_layer(*bytes, size, around, *decoded); !done)
             return in_chunk(ordinal, row, done.error().message);
         decoded->compact();
+        ++decoded_;
         return DecodedCache::Decoded{decoded, decoded->memory_bytes() + sizeof(Layer)};
     }
 
@@ -186,6 +196,8 @@ class Generation {
     const MrvIndex& index_;
     std::size_t first_key_;
     DecodedCache& cache_;
+    DecodedCache::Owner owner_;
+    std::atomic<std::uint64_t>& decoded_;
     Frame::LayerPtr empty_ = std::make_shared<const Layer>();
 };
 
@@ -193,15 +205,22 @@ class Generation {
 
 class MrvClip::Impl {
   public:
-    Impl(std::span<const std::byte> file, MrvFront front, std::size_t cache_bytes)
-        : front_(std::move(front)), cache_(cache_bytes) {
+    Impl(std::span<const std::byte> file,
+         MrvFront front,
+         std::shared_ptr<DecodedCache> cache)
+        : front_(std::move(front)),
+          cache_(std::move(cache)),
+          owner_(cache_->add_owner()) {
         std::size_t key = 0;
         for (const MrvGeneration& older : front_.older) {
-            generations_.emplace_back(file, older.shape, older.index, key, cache_);
+            add_generation(file, older.shape, older.index, key);
             key += older.index.siblings();
         }
-        generations_.emplace_back(file, front_.shape, front_.index, key, cache_);
+        add_generation(file, front_.shape, front_.index, key);
     }
+    ~Impl() { cache_->remove_owner(owner_); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
     // Siblings of the clip where they are stored: in a generation, at its time levels.
     struct Place {
@@ -224,7 +243,8 @@ class MrvClip::Impl {
     }
 
     [[nodiscard]] const MrvFront& front() const { return front_; }
-    [[nodiscard]] const DecodedCache& cache() const { return cache_; }
+    [[nodiscard]] const DecodedCache& cache() const { return *cache_; }
+    [[nodiscard]] std::uint64_t decoded() const { return decoded_; }
 
     [[nodiscard]] Result<void> verify() const {
         for (const Generation& generation : generations_) {
@@ -234,8 +254,18 @@ class MrvClip::Impl {
     }
 
   private:
+    void add_generation(std::span<const std::byte> file,
+                        const ClipShape& shape,
+                        const MrvIndex& index,
+                        std::size_t first_key) {
+        generations_.emplace_back(
+            file, shape, index, first_key, *cache_, owner_, decoded_);
+    }
+
     MrvFront front_;
-    DecodedCache cache_;
+    std::shared_ptr<DecodedCache> cache_;
+    const DecodedCache::Owner owner_;
+    std::atomic<std::uint64_t> decoded_ = 0;
     std::vector<Generation> generations_;  // the first first
 };
 
@@ -245,10 +275,15 @@ MrvClip::~MrvClip() = default;
 
 Result<std::unique_ptr<MrvClip>> MrvClip::open(std::span<const std::byte> file,
                                                std::size_t cache_bytes) {
+    return open(file, std::make_shared<DecodedCache>(cache_bytes));
+}
+
+Result<std::unique_ptr<MrvClip>> MrvClip::open(std::span<const std::byte> file,
+                                               std::shared_ptr<DecodedCache> cache) {
     Result<MrvFront> front = decode_front(file);
     if (!front) return std::move(front).error();
     return std::unique_ptr<MrvClip>(
-        new MrvClip(std::make_unique<Impl>(file, *std::move(front), cache_bytes)));
+        new MrvClip(std::make_unique<Impl>(file, *std::move(front), std::move(cache))));
 }
 
 bool MrvClip::stored(const SiblingAddress& address) const {
@@ -291,7 +326,7 @@ Result<Frame::LayerPtr> MrvClip::layer_on_way(const SiblingAddress& address,
 const MrvFront& MrvClip::front() const { return impl_->front(); }
 std::uint64_t MrvClip::revision() const { return impl_->front().revision; }
 std::size_t MrvClip::cached_bytes() const { return impl_->cache().bytes(); }
-std::uint64_t MrvClip::decoded_chunks() const { return impl_->cache().decoded(); }
+std::uint64_t MrvClip::decoded_chunks() const { return impl_->decoded(); }
 Result<void> MrvClip::verify() const { return impl_->verify(); }
 
 }  // namespace haarmony::video

@@ -22,6 +22,7 @@
 
 namespace haarmony::video {
 
+class DecodedCache;
 struct MrvFront;
 
 class MrvClip final : public TimeTree {
@@ -31,6 +32,10 @@ class MrvClip final : public TimeTree {
     [[nodiscard]] static Result<std::unique_ptr<MrvClip>> open(
         std::span<const std::byte> file,
         std::size_t cache_bytes);
+    // The same with a cache that other clips use, too: its limit is theirs together.
+    [[nodiscard]] static Result<std::unique_ptr<MrvClip>> open(
+        std::span<const std::byte> file,
+        std::shared_ptr<DecodedCache> cache);
     ~MrvClip() override;
 
     [[nodiscard]] bool stored(const SiblingAddress& address) const override;
@@ -48,8 +53,9 @@ class MrvClip final : public TimeTree {
     // What an append goes on from (mrv_writer.h).
     [[nodiscard]] const MrvFront& front() const;
     [[nodiscard]] std::uint64_t revision() const;
+    // Of the cache, whoever shares it.
     [[nodiscard]] std::size_t cached_bytes() const;
-    // How many chunks were decoded since open().
+    // How many chunks of this clip were decoded since open().
     [[nodiscard]] std::uint64_t decoded_chunks() const;
     // Every chunk read and checked: what a clip from elsewhere must pass before it is kept.
     [[nodiscard]] Result<void> verify() const;

@@ -57,12 +57,11 @@ std::string hexadecimal(std::uint64_t revision) {
 }
 
 Result<schema::Video> describe(const video::MrvClip& clip,
+                               std::uint64_t memory_bytes,
                                std::uint64_t file_bytes,
                                const VideoWishes& wishes) {
     const auto counts = video::count_storage(clip);
     if (!counts) return counts.error();
-    const auto memory = memory_of(clip);
-    if (!memory) return memory.error();
     const video::ClipShape& shape = clip.shape();
     schema::Video row;
     row.revision = hexadecimal(clip.revision());
@@ -78,7 +77,7 @@ Result<schema::Video> describe(const video::MrvClip& clip,
                    static_cast<std::int64_t>(counts->pruned_subtrees),
                    static_cast<std::int64_t>(counts->own_subtrees),
                    static_cast<std::int64_t>(counts->uplinks),
-                   static_cast<std::int64_t>(*memory),
+                   static_cast<std::int64_t>(memory_bytes),
                    static_cast<std::int64_t>(file_bytes)};
     row.indexed = wishes.index;
     return row;
@@ -117,11 +116,36 @@ Result<std::vector<schema::FrameSignature>> signatures_of(JobContext& job,
     });
 }
 
-// Written, and on the disk.
-Result<void> write_clip(JobContext& job,
-                        const VideoFiles& files,
-                        video::FrameSource& source,
-                        const VideoWishes& wishes) {
+// Counts what the layers take while they pass.
+class CountingSink final : public video::ClipSink {
+  public:
+    explicit CountingSink(video::ClipSink& sink) : sink_(sink) {}
+
+    Result<void> begin(const video::ClipShape& shape, std::uint32_t delta) override {
+        return sink_.begin(shape, delta);
+    }
+    Result<void> add(video::Siblings siblings) override {
+        bytes_ +=
+            sizeof(video::TimeNode) * static_cast<std::size_t>(siblings.nodes.count);
+        for (video::Layer& layer : siblings.layers) {
+            layer.compact();
+            bytes_ += layer.memory_bytes();
+        }
+        return sink_.add(std::move(siblings));
+    }
+    Result<void> finish() override { return sink_.finish(); }
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    video::ClipSink& sink_;
+    std::uint64_t bytes_ = 0;
+};
+
+// Written, and on the disk: what it takes when all of it is decoded.
+Result<std::uint64_t> write_clip(JobContext& job,
+                                 const VideoFiles& files,
+                                 video::FrameSource& source,
+                                 const VideoWishes& wishes) {
     auto averages = FileSpool::nameless(files.folder());
     if (!averages) return averages.error();
     auto waiting = FileSpool::nameless(files.folder());
@@ -133,9 +157,11 @@ Result<void> write_clip(JobContext& job,
     options.delta = delta_units(wishes.delta);
     options.max_frames = wishes.max_frames;
     options.progress = progress_of(job);
-    const auto shape = video::build(source, *averages, writer, options);
+    CountingSink counted(writer);
+    const auto shape = video::build(source, *averages, counted, options);
     if (!shape) return shape.error();
-    return file->sync();
+    if (const auto synced = file->sync(); !synced) return synced.error();
+    return counted.bytes();
 }
 
 // A copy of the clip with the frames behind its own, on the disk.
@@ -178,7 +204,9 @@ Result<schema::Video> keep_grown(JobContext& job,
     if (!file) return file.error();
     const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
     if (!clip) return clip.error();
-    auto row = describe(**clip, (*file)->bytes().size(), {});
+    const auto memory = memory_of(**clip);
+    if (!memory) return memory.error();
+    auto row = describe(**clip, *memory, (*file)->bytes().size(), {});
     if (!row) return row.error();
     schema::GrownVideo grown;
     grown.before = before;
@@ -198,20 +226,21 @@ Result<schema::Video> keep_grown(JobContext& job,
     return videos.grow(path, grown, frames);
 }
 
-}  // namespace
-
-Result<void> keep_video(JobContext& job,
-                        VideoService& videos,
-                        const std::string& path,
-                        const VideoWishes& wishes) {
-    const auto before = made_before(job, videos, true);
-    if (!before) return before.error();
-    if (*before) return {};
+Result<void> keep(JobContext& job,
+                  VideoService& videos,
+                  const std::string& path,
+                  const VideoWishes& wishes,
+                  std::optional<std::uint64_t> memory_bytes) {
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
     const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
     if (!clip) return clip.error();
-    auto row = describe(**clip, (*file)->bytes().size(), wishes);
+    if (!memory_bytes) {
+        const auto walked = memory_of(**clip);
+        if (!walked) return walked.error();
+        memory_bytes = *walked;
+    }
+    auto row = describe(**clip, *memory_bytes, (*file)->bytes().size(), wishes);
     if (!row) return row.error();
     row->job = job.job().id;
     std::vector<schema::FrameSignature> frames;
@@ -227,6 +256,18 @@ Result<void> keep_video(JobContext& job,
     return {};
 }
 
+}  // namespace
+
+Result<void> keep_video(JobContext& job,
+                        VideoService& videos,
+                        const std::string& path,
+                        const VideoWishes& wishes) {
+    const auto before = made_before(job, videos, true);
+    if (!before) return before.error();
+    if (*before) return {};
+    return keep(job, videos, path, wishes, std::nullopt);
+}
+
 Result<void> build_video(JobContext& job,
                          VideoService& videos,
                          video::FrameSource& source,
@@ -237,8 +278,10 @@ Result<void> build_video(JobContext& job,
     if (*before) return {};
     if (frames) job.set_total(*frames);
     const std::string path = videos.files().building_path(job.job().id);
-    Result<void> done = write_clip(job, videos.files(), source, wishes);
-    if (done) done = keep_video(job, videos, path, wishes);
+    const auto memory_bytes = write_clip(job, videos.files(), source, wishes);
+    const Result<void> done = memory_bytes
+                                  ? keep(job, videos, path, wishes, *memory_bytes)
+                                  : Result<void>(memory_bytes.error());
     // Gone where it was published.
     ::unlink(path.c_str());
     if (job.was_interrupted()) return {};

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/video/decoded_cache.h"
 #include "engine/video/mrv_clip.h"
 #include "server/app/log_value.h"
 #include "server/app/mapped_file.h"
@@ -40,12 +41,13 @@ Error broken(const schema::Video& video, const Error& error) {
             "video " + std::to_string(video.id) + " cannot be read: " + error.message};
 }
 
-Result<std::shared_ptr<const OpenVideo>> open_video(const VideoFiles& files,
-                                                    const schema::Video& row,
-                                                    std::size_t cache_bytes) {
+Result<std::shared_ptr<const OpenVideo>> open_video(
+    const VideoFiles& files,
+    const schema::Video& row,
+    const std::shared_ptr<video::DecodedCache>& layers) {
     auto file = MappedFile::open(files.clip_path(row.id, row.revision));
     if (!file) return broken(row, file.error());
-    auto clip = video::MrvClip::open((*file)->bytes(), cache_bytes);
+    auto clip = video::MrvClip::open((*file)->bytes(), layers);
     if (!clip) return broken(row, clip.error());
     return std::shared_ptr<const OpenVideo>(
         std::make_shared<MappedVideo>(row, std::move(clip).value(), *std::move(file)));
@@ -93,6 +95,7 @@ VideoService::VideoService(const VideoServiceOptions& options,
     : options_(options),
       files_(options.database_path),
       replies_(options.reply_cache_bytes),
+      layers_(std::make_shared<video::DecodedCache>(options.layer_cache_bytes)),
       writer_(std::move(writer)),
       readers_([path = options.database_path] {
           return Connection::open(path, schema::Database::Mode::kReadOnly);
@@ -144,8 +147,9 @@ Result<void> VideoService::remove(std::int64_t id) {
     }();
     if (!removed) return removed.error();
     {
+        decltype(held_)::node_type closed;  // with all its layers, behind the lock
         const std::lock_guard lock(mutex_);
-        held_.erase(id);
+        closed = held_.extract(id);
     }
     replies_.forget(id);
     files_.remove_clip(*removed);
@@ -164,7 +168,7 @@ Result<std::shared_ptr<const OpenVideo>> VideoService::clip(std::int64_t id) {
             return found->second.video;
         }
     }
-    auto opened = open_video(files_, *row, options_.clip_cache_bytes);
+    auto opened = open_video(files_, *row, layers_);
     // Removed or grown since the row was read: nobody's fault.
     constexpr int kTries = 3;
     for (int tries = 1; !opened && tries < kTries; ++tries) {
@@ -172,20 +176,26 @@ Result<std::shared_ptr<const OpenVideo>> VideoService::clip(std::int64_t id) {
         if (!now) return now.error();
         if (now->revision == row->revision) break;
         row = now;
-        opened = open_video(files_, *row, options_.clip_cache_bytes);
+        opened = open_video(files_, *row, layers_);
     }
     if (!opened) return logged(std::move(opened));
+    std::shared_ptr<const OpenVideo> closed;  // with all its layers, behind the lock
     const std::lock_guard lock(mutex_);
-    held_.insert_or_assign(id, Held{*opened, ++uses_});
+    Held& held = held_[id];
+    closed = std::exchange(held.video, *opened);
+    held.used = ++uses_;
     if (held_.size() > options_.open_clips) {
         const auto oldest = std::min_element(
             held_.begin(), held_.end(), [](const auto& a, const auto& b) {
                 return a.second.used < b.second.used;
             });
+        closed = std::move(oldest->second.video);
         held_.erase(oldest);
     }
     return opened;
 }
+
+std::size_t VideoService::layer_bytes() const { return layers_->bytes(); }
 
 Result<schema::Video> VideoService::add(const std::string& built,
                                         const schema::Video& video,

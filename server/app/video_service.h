@@ -5,7 +5,8 @@
 //   video_job -> [video_service]
 //
 // A clip that somebody looks at stays readable until he lets go of it, also when the video
-// is removed or grows meanwhile.
+// is removed or grows meanwhile. Layers are decoded when they are asked for, and kept while
+// there is room for them.
 //
 // Errors   the store's; kUndecodable for a file that is damaged, kIo for one that is gone.
 // Threads  every member from any thread.
@@ -26,13 +27,19 @@
 #include "server/app/reply_cache.h"
 #include "server/app/video_files.h"
 
+namespace haarmony::video {
+class DecodedCache;
+}
+
 namespace haarmony::server {
 
 struct VideoServiceOptions {
     std::string database_path;
-    // Of decoded layers, for each clip that is open, and how many are at the same time.
-    std::size_t clip_cache_bytes = std::size_t{32} << 20;
-    std::size_t open_clips = 8;
+    // Of decoded layers, of all clips together: those that were longest unused go first,
+    // whichever clip's they are. Small clips are held whole, so that any frame of them is
+    // only drawn.
+    std::size_t layer_cache_bytes = std::size_t{512} << 20;
+    std::size_t open_clips = 32;  // at the same time, each with the index of its file
     std::size_t reply_cache_bytes = std::size_t{64} << 20;  // of encoded pictures
 };
 
@@ -83,6 +90,8 @@ class VideoService {
 
     [[nodiscard]] VideoFiles& files() { return files_; }
     [[nodiscard]] ReplyCache& replies() { return replies_; }
+    // Of decoded layers that are kept.
+    [[nodiscard]] std::size_t layer_bytes() const;
     [[nodiscard]] ReadConnections& readers() { return readers_; }
 
   private:
@@ -99,6 +108,7 @@ class VideoService {
     const VideoServiceOptions options_;
     VideoFiles files_;
     ReplyCache replies_;
+    const std::shared_ptr<video::DecodedCache> layers_;  // of every clip
 
     std::mutex writer_mutex_;  // guards writer_
     std::unique_ptr<Connection> writer_;

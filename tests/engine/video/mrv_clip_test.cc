@@ -9,6 +9,7 @@
 #include <latch>
 #include <thread>
 
+#include "engine/video/decoded_cache.h"
 #include "engine/video/mrv_format.h"
 #include "tests/engine/video/plain_clip.h"
 #include "tests/engine/video/random_links.h"
@@ -141,6 +142,40 @@ TEST(MrvClip, WhatAFrameHoldsIsNotDecodedAgain) {
     EXPECT_EQ(read->cached_bytes(), 0U);
     // Its own half's chunks are the sibling's: only the time nodes above it had gone.
     EXPECT_LE(read->decoded_chunks(), layers + 3);
+}
+
+TEST(MrvClip, ClipsThatShareACacheStayWithinItsLimitTogether) {
+    const auto first_file = mrv_bytes(unlinked_clip(random_clip(40, 24, 6, 11)));
+    const auto second_file = mrv_bytes(unlinked_clip(random_clip(24, 40, 6, 12)));
+    const auto every_frame = [](const MrvClip& clip) {
+        for (std::int64_t t = 0; t < clip.shape().frames(); ++t)
+            EXPECT_TRUE(
+                clip.frame({clip.shape().time_levels(), t}, clip.shape().space_levels())
+                    .has_value());
+    };
+    const auto alone = opened(first_file, kPlenty);
+    every_frame(*alone);
+    const std::size_t whole = alone->cached_bytes();
+
+    // Room for one of them.
+    const auto cache = std::make_shared<DecodedCache>(whole);
+    auto first = MrvClip::open(first_file, cache);
+    auto second = MrvClip::open(second_file, cache);
+    ASSERT_TRUE(first && second);
+    every_frame(**first);
+    EXPECT_EQ(cache->bytes(), whole);
+    every_frame(**first);
+    EXPECT_EQ((*first)->decoded_chunks(), alone->decoded_chunks());
+    every_frame(**second);
+    EXPECT_LE(cache->bytes(), whole);
+    EXPECT_GT((*second)->decoded_chunks(), 0U);
+    every_frame(**first);
+    EXPECT_GT((*first)->decoded_chunks(), alone->decoded_chunks());
+    EXPECT_EQ((*first)->cached_bytes(), cache->bytes());
+    // The layers of a clip go with it.
+    second->reset();
+    first->reset();
+    EXPECT_EQ(cache->bytes(), 0U);
 }
 
 TEST(MrvClip, TwoThatWantTheSameLayersDecodeThemOnce) {
