@@ -3,9 +3,8 @@
 #include <iostream>
 #include <string>
 
+#include "tests/bench/http/cached_rows.h"
 #include "tests/bench/http/synthetic_rows.h"
-#include "tests/eval/packed_signature.h"
-#include "tests/eval/signature_cache.h"
 
 namespace {
 
@@ -24,16 +23,7 @@ Result<void> write(const Options& options) {
             return bench::synthetic_signature(options.seed, n);
         });
     }
-    const auto cache = eval::read_signature_cache(options.signatures);
-    if (!cache) return cache.error();
-    if (cache->size() < options.images) {
-        return Error{ErrorCode::kInvalidArgument,
-                     options.signatures + ": " + std::to_string(cache->size()) +
-                         " pictures, not " + std::to_string(options.images)};
-    }
-    return bench::write_rows(options.database, options.images, [&](std::int64_t n) {
-        return eval::unpack(cache->signatures[std::size_t(n - 1)]);
-    });
+    return bench::write_cached_rows(options.database, options.images, options.signatures);
 }
 
 }  // namespace
