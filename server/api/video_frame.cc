@@ -5,6 +5,7 @@
 
 #include "server/api/inputs.h"
 #include "server/api/picture_format.h"
+#include "server/api/server_timing.h"
 #include "server/api/video_place.h"
 #include "server/app/video_picture.h"
 #include "server/http/conditional.h"
@@ -21,7 +22,8 @@ std::string spelling_of(const http::Request& request) {
     return text + '\n' + request.body;
 }
 
-http::Response response_of(const ReplyCache::Reply& reply, PictureFormat format) {
+http::Response response_of(const PictureAnswer& answer, PictureFormat format) {
+    const ReplyCache::Reply& reply = answer.reply;
     http::Response response;
     response.body = reply->bytes;
     response.headers["Content-Type"] = media_type_of(format);
@@ -32,6 +34,10 @@ http::Response response_of(const ReplyCache::Reply& reply, PictureFormat format)
     const auto word = [](bool finer) { return finer ? "yes" : "no"; };
     response.headers["X-Detail"] =
         std::string(word(reply->finer_in_space)) + ", " + word(reply->finer_in_time);
+    if (const auto& times = answer.times)
+        response.headers["Server-Timing"] = server_timing({{"decode", times->decode},
+                                                           {"draw", times->draw},
+                                                           {"encode", times->encode}});
     return response;
 }
 
@@ -58,10 +64,10 @@ Reply frame(const Context& context, const http::Request& request, Inputs& inputs
     http::Response response;
     // What the client has already need not be drawn.
     if (!http::is_unmodified(request, etag)) {
-        const auto reply =
+        const auto made =
             picture_reply(context.videos, **video, *picture, spelling_of(request));
-        if (!reply) return reply.error();
-        response = response_of(*reply, format);
+        if (!made) return made.error();
+        response = response_of(*made, format);
     }
     response.headers["ETag"] = etag;
     response.headers["Vary"] = "Accept";

@@ -18,7 +18,7 @@ namespace haarmony::server {
 namespace {
 
 // In every key: another number where the same address gives other bytes.
-constexpr std::string_view kRendering = "1";
+constexpr std::string_view kRendering = "2";
 
 constexpr int kJpegQuality = 90;
 
@@ -42,12 +42,40 @@ int needed_level(const video::ClipShape& shape, const VideoPicture& picture) {
     return std::min(std::max(drawn + 1, video::kBrickLevel), shape.space_levels());
 }
 
-video::Picture draw_frame(const video::Frame& frame, const VideoPicture& picture) {
+Result<video::Picture> draw_frame(const video::Frame& frame,
+                                  const VideoPicture& picture) {
     if (picture.root_side)
         return video::zoom(
             frame, *picture.root_side, picture.edge, picture.box, picture.finer);
     return video::draw(frame, picture.level, picture.edge, picture.box);
 }
+
+// Of frames that no node covers.
+Result<video::Picture> draw_range(const video::TimeTree& clip,
+                                  const VideoPicture& picture) {
+    if (picture.root_side)
+        return video::zoom_shutter(clip,
+                                   picture.frames,
+                                   *picture.root_side,
+                                   picture.edge,
+                                   picture.box,
+                                   picture.finer);
+    return video::draw_shutter(
+        clip, picture.frames, picture.level, picture.edge, picture.box);
+}
+
+// Takes the time in laps.
+class Stopwatch {
+  public:
+    std::chrono::nanoseconds lap() {
+        const Clock::time_point start = std::exchange(since_, Clock::now());
+        return since_ - start;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point since_ = Clock::now();
+};
 
 // Whether levels finer than the last one that a picture shows in full have more to show.
 bool finer_in_space(const video::Frame& frame, const VideoPicture& picture) {
@@ -128,16 +156,7 @@ std::string etag_of(const std::string& key) {
 
 Result<video::Picture> draw_picture(const video::TimeTree& clip,
                                     const VideoPicture& picture) {
-    if (!picture.node && picture.root_side)
-        return video::zoom_shutter(clip,
-                                   picture.frames,
-                                   *picture.root_side,
-                                   picture.edge,
-                                   picture.box,
-                                   picture.finer);
-    if (!picture.node)
-        return video::draw_shutter(
-            clip, picture.frames, picture.level, picture.edge, picture.box);
+    if (!picture.node) return draw_range(clip, picture);
     const auto frame = clip.frame(*picture.node, needed_level(clip.shape(), picture));
     if (!frame) return frame.error();
     return draw_frame(*frame, picture);
@@ -163,33 +182,40 @@ Result<std::string> encode_picture(const video::Picture& picture,
     return std::string(bytes->begin(), bytes->end());
 }
 
-Result<ReplyCache::Reply> picture_reply(VideoService& videos,
-                                        const OpenVideo& video,
-                                        const VideoPicture& picture,
-                                        const std::string& alias) {
+Result<PictureAnswer> picture_reply(VideoService& videos,
+                                    const OpenVideo& video,
+                                    const VideoPicture& picture,
+                                    const std::string& alias) {
     const std::string key = key_of(video.row(), picture);
-    if (ReplyCache::Reply kept = videos.replies().find(key, alias)) return kept;
+    if (ReplyCache::Reply kept = videos.replies().find(key, alias))
+        return PictureAnswer{std::move(kept), std::nullopt};
     const video::TimeTree& clip = video.clip();
-    const auto drawn = draw_picture(clip, picture);
-    if (!drawn) return drawn.error();
-    auto encoded = encode_picture(*drawn, picture.format, picture.background);
-    if (!encoded) return encoded.error();
-    auto reply = std::make_shared<PictureReply>();
-    reply->bytes = *std::move(encoded);
-    reply->width = drawn->width;
-    reply->height = drawn->height;
-    reply->first_frame = picture.frames.first;
-    reply->last_frame = picture.frames.end - 1;
+    PictureTimes times;
+    Stopwatch watch;
     // Of a range that no node covers, the first frame's node tells of space; of time there
     // is finer detail than an average of several nodes.
     const video::NodeAddress at = picture.node.value_or(
         video::NodeAddress{clip.shape().time_levels(), picture.frames.first});
     const auto frame = clip.frame(at, needed_level(clip.shape(), picture));
     if (!frame) return frame.error();
+    times.decode = watch.lap();
+    const auto drawn =
+        picture.node ? draw_frame(*frame, picture) : draw_range(clip, picture);
+    if (!drawn) return drawn.error();
+    auto reply = std::make_shared<PictureReply>();
+    reply->width = drawn->width;
+    reply->height = drawn->height;
+    reply->first_frame = picture.frames.first;
+    reply->last_frame = picture.frames.end - 1;
     reply->finer_in_space = finer_in_space(*frame, picture);
     reply->finer_in_time = !picture.node || clip.finer_in_time(at);
+    times.draw = watch.lap();
+    auto encoded = encode_picture(*drawn, picture.format, picture.background);
+    if (!encoded) return encoded.error();
+    reply->bytes = *std::move(encoded);
+    times.encode = watch.lap();
     videos.replies().put(video.row().id, key, alias, reply);
-    return ReplyCache::Reply(std::move(reply));
+    return PictureAnswer{std::move(reply), times};
 }
 
 }  // namespace haarmony::server

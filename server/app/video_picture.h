@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -61,10 +62,22 @@ struct VideoPicture {
     PictureFormat format,
     const std::optional<video::Rgba>& background);
 
+// What of a picture took how long.
+struct PictureTimes {
+    std::chrono::nanoseconds decode{};  // of what was not in memory of the node drawn
+    std::chrono::nanoseconds draw{};
+    std::chrono::nanoseconds encode{};
+};
+
+struct PictureAnswer {
+    ReplyCache::Reply reply;
+    std::optional<PictureTimes> times;  // none where it was kept
+};
+
 // From the cache, or drawn and put there under `alias`, too.
-[[nodiscard]] Result<ReplyCache::Reply> picture_reply(VideoService& videos,
-                                                      const OpenVideo& video,
-                                                      const VideoPicture& picture,
-                                                      const std::string& alias);
+[[nodiscard]] Result<PictureAnswer> picture_reply(VideoService& videos,
+                                                  const OpenVideo& video,
+                                                  const VideoPicture& picture,
+                                                  const std::string& alias);
 
 }  // namespace haarmony::server
