@@ -47,7 +47,10 @@ bool writes(PngSession& session, const ImageView& picture) {
     const bool alpha = picture.channels == 4 && has_transparency(picture);
     png_set_write_fn(session.png, &session, take_bytes, flush_nothing);
     png_set_compression_level(session.png, 1);
-    png_set_filter(session.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    // From the row above: of squares of films a quarter less time and a fifth fewer bytes
+    // than from the left. All filters at level 6 take five to eight times as long, for a
+    // tenth fewer.
+    png_set_filter(session.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_IHDR(session.png,
                  session.info,
                  static_cast<png_uint_32>(picture.width),
