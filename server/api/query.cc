@@ -1,8 +1,6 @@
 #include "server/api/query.h"
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -17,6 +15,7 @@
 #include "server/api/json_text.h"
 #include "server/api/query_options.h"
 #include "server/api/query_source.h"
+#include "server/api/server_timing.h"
 #include "server/api/url_source.h"
 #include "server/api/video_match.h"
 #include "server/http/json.h"
@@ -164,10 +163,12 @@ json query_json(const SearchPlan& plan, const QueryOptions& options) {
     return query;
 }
 
-// What one query is told, and how long the indexes were asked for it.
+// What one query is told, and what of it took how long.
 struct Answer {
-    std::string reply;  // JSON
-    std::chrono::nanoseconds ranking{};
+    std::string reply;                   // JSON
+    std::chrono::nanoseconds ranking{};  // the indexes
+    std::chrono::nanoseconds looking{};  // from the source to its signatures
+    std::chrono::nanoseconds writing{};  // the reply
 };
 
 Outcome<Answer> answer(const Context& context,
@@ -179,11 +180,14 @@ Outcome<Answer> answer(const Context& context,
     // Before the picture is decoded for nothing.
     if (!context.images.ready())
         return Error{ErrorCode::kUnavailable, "the collection is still being loaded"};
+    const Clock::time_point look = Clock::now();
     auto picture = picture_of(context, *source, options.look);
     if (!picture) return picture.problem();
+    const auto looking = Clock::now() - look;
     const auto found = search(context, *picture, options);
     if (!found) return found.error();
 
+    const Clock::time_point write = Clock::now();
     const auto matches = matches_text(context, *found, options);
     if (!matches) return matches.error();
     const std::chrono::duration<double, std::milli> took = Clock::now() - start;
@@ -195,7 +199,7 @@ Outcome<Answer> answer(const Context& context,
         .json("query", http::to_text(query_json(plan_of(*found), options)));
     if (options.seq) members.json("seq", http::to_text(*options.seq));
     members.end();
-    return Answer{std::move(reply), ranking(*found)};
+    return Answer{std::move(reply), ranking(*found), looking, Clock::now() - write};
 }
 
 http::Response fresh(std::string reply) {
@@ -207,13 +211,10 @@ http::Response fresh(std::string reply) {
 Reply respond(Outcome<Answer> answer) {
     if (!answer) return answer.problem();
     http::Response response = fresh(std::move(answer->reply));
-    // W3C Server Timing; the rest of what the client waited for is the service around it.
-    std::array<char, 48> timing{};
-    std::snprintf(timing.data(),
-                  timing.size(),
-                  "search;dur=%.3f",
-                  std::chrono::duration<double, std::milli>(answer->ranking).count());
-    response.headers["Server-Timing"] = timing.data();
+    // The rest of took_ms is the rows of the matches.
+    response.headers["Server-Timing"] = server_timing({{"search", answer->ranking},
+                                                       {"picture", answer->looking},
+                                                       {"reply", answer->writing}});
     return response;
 }
 
