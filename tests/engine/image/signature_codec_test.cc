@@ -222,6 +222,33 @@ TEST(SignatureCodec, RefusesIndicesThatNoPictureHas) {
     }
 }
 
+// Bytes are checked in another way than open forms: both find the same fault.
+TEST(SignatureCodec, RefusesTheSameIndicesInBytesAsInTheOpenForm) {
+    std::mt19937 random(67);
+    for (int i = 0; i < 3000; ++i) {
+        const Signature sound = random_signature(random, {});
+        OpenSignature open = to_open(sound);
+        const std::size_t channel = random() % kChannels;
+        std::vector<int>& indices = open.coefficients[channel];
+        if (indices.size() < 2) continue;
+        const std::size_t at = random() % indices.size();
+        const int other = indices[random() % indices.size()];
+        const int wrong[] = {other, -other, 0, -32768, 32767, -16384, 16384};
+        indices[at] = wrong[random() % std::size(wrong)];
+        Signature changed = sound;
+        changed.channels[channel].indices[at] = static_cast<std::int16_t>(indices[at]);
+        const auto from_bytes = decode_signature(encode_signature(changed));
+        const auto from_numbers = from_open(open);
+        ASSERT_EQ(from_bytes.has_value(), from_numbers.has_value()) << i;
+        if (from_numbers) {
+            // Another sign, or the same number again.
+            EXPECT_EQ(from_bytes->channels, from_numbers->channels);
+        } else {
+            EXPECT_EQ(from_bytes.error().message, from_numbers.error().message) << i;
+        }
+    }
+}
+
 TEST(SignatureCodec, RefusesOpenIndicesBeyondTheirType) {
     for (const int index :
          {std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
