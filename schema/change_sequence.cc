@@ -19,9 +19,11 @@ constexpr std::string_view kScan =
     "SELECT id, width, height, signature FROM images NOT INDEXED"
     " WHERE signature IS NOT NULL AND id BETWEEN ?1 AND ?2 ORDER BY id";
 
-// Along an index that has no more than what is asked for.
-constexpr std::string_view kSearchableIds =
-    "SELECT id FROM images INDEXED BY images_state WHERE state = 'indexed' ORDER BY id";
+// The picture ?2 places behind ?1, along an index that has no more than what is asked for: to
+// be given every id took three times as long.
+constexpr std::string_view kSearchableIdBehind =
+    "SELECT id FROM images INDEXED BY images_state WHERE state = 'indexed' AND id >= ?1"
+    " ORDER BY id LIMIT 1 OFFSET ?2";
 
 // In the order of kScan: the two are read side by side, and no picture costs a query.
 constexpr std::string_view kVariantScan =
@@ -153,15 +155,19 @@ Result<std::vector<IdRange>> ImageStore::searchable_ranges(int size) {
     const auto failed = [](Error error) {
         return while_doing("cannot read the ids", std::move(error));
     };
-    auto statement = statements_->cache.borrow(kSearchableIds);
+    Result<ReadScope> scope = ReadScope::begin(statements_->cache);
+    if (!scope) return failed(std::move(scope).error());
+    auto statement = statements_->cache.borrow(kSearchableIdBehind);
     if (!statement) return failed(std::move(statement).error());
     std::vector<IdRange> ranges{kAllIds};
-    for (std::int64_t seen = 0;; ++seen) {
+    for (;;) {
+        (*statement)->bind(1, to_int(ranges.back().first));
+        (*statement)->bind(2, size);
         const Result<bool> row = (*statement)->step();
         if (!row) return failed(row.error());
         if (!*row) return ranges;
-        if (seen == 0 || seen % size != 0) continue;
         const std::int64_t first = (*statement)->integer(0);
+        (*statement)->reset();
         ranges.back().last = ImageId{first - 1};
         ranges.push_back({ImageId{first}, kAllIds.last});
     }
