@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "engine/image/packed_pictures.h"
 #include "engine/image/picture_source.h"
 #include "engine/image/segment_pictures.h"
 
@@ -41,6 +42,11 @@ std::shared_ptr<const Segment> Segment::from_records(
            columns.ids.end());
     return std::shared_ptr<const Segment>(
         new Segment(build_segment(index_m, columns, RecordPictures(records, index_m))));
+}
+
+std::shared_ptr<const Segment> Segment::from_pictures(const PackedPictures& pictures) {
+    return std::shared_ptr<const Segment>(
+        new Segment(build_segment(pictures.index_m(), pictures.columns(), pictures)));
 }
 
 std::shared_ptr<const Segment> Segment::merge(std::span<const LiveSegment> parts) {

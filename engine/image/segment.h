@@ -22,6 +22,7 @@
 
 namespace haarmony::image {
 
+class PackedPictures;
 class Segment;
 
 // A segment and those of its pictures that are gone.
@@ -38,6 +39,10 @@ class Segment {
     [[nodiscard]] static std::shared_ptr<const Segment> from_records(
         std::span<const Record* const> records,
         int index_m);
+
+    // Requires: 1 <= size <= kMaxSegmentSlots.
+    [[nodiscard]] static std::shared_ptr<const Segment> from_pictures(
+        const PackedPictures& pictures);
 
     // The live pictures of `parts`, or null where there are none.
     // Requires: at most kMaxSegmentSlots of them, no id live in two parts, one index_m.

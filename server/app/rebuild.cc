@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <optional>
-#include <span>
 
 #include "engine/image/segment.h"
+#include "server/app/lending_pool.h"
 #include "server/app/stored_signatures.h"
 
 namespace haarmony::server {
@@ -20,72 +21,84 @@ Error stopped() {
     return {ErrorCode::kUnavailable, "loading the signatures was stopped"};
 }
 
-void append_segments(std::span<const image::Record> records,
-                     int index_m,
-                     std::vector<image::LiveSegment>& segments) {
-    std::vector<const image::Record*> block;
-    for (std::span<const image::Record> rest = records; !rest.empty();) {
-        // Pictures that came meanwhile may make it more than one.
-        const auto first =
-            rest.first(std::min(rest.size(), std::size_t{image::kMaxSegmentSlots}));
-        block.clear();
-        for (const image::Record& record : first) block.push_back(&record);
-        segments.push_back({image::Segment::from_records(block, index_m), nullptr});
-        rest = rest.subspan(first.size());
-    }
-}
+using PicturesPool = LendingPool<StoredPictures>;
 
 Result<Rebuilt> rebuild_range(ReadConnections& connections,
+                              PicturesPool& pool,
                               const schema::IdRange& range,
                               int most,
                               const RebuildOptions& options) {
     const auto connection = connections.lend();
     if (!connection) return connection.error();
-    auto records =
-        read_records((*connection)->images(), range, std::size_t(most), options.go_on);
-    if (!records) return std::move(records).error();
+    const PicturesPool::Loan pictures = pool.lend().value();  // to make one cannot fail
+    StoredPictures& stored = *pictures;
+    if (Result<void> read =
+            stored.read((*connection)->images(), range, std::size_t(most), options.go_on);
+        !read)
+        return std::move(read).error();
     Rebuilt part;
-    part.sequence = records->sequence;
-    part.images = records->images;
-    part.damaged = std::move(records->damaged);
-    for (auto& [variant, of_variant] : records->variants) {
+    part.sequence = stored.sequence();
+    part.images = stored.images();
+    part.damaged = stored.damaged();
+    for (const auto& [variant, pieces] : stored.variants()) {
         if (!options.go_on()) return stopped();
-        append_segments(of_variant, options.index_m, part.segments[variant]);
-        of_variant = {};
+        std::vector<image::LiveSegment>& segments = part.segments[variant];
+        for (const image::PackedPictures& piece : pieces) {
+            if (piece.size() != 0)
+                segments.push_back({image::Segment::from_pictures(piece), nullptr});
+        }
     }
     return part;
 }
 
 }  // namespace
 
-Result<StoredRecords> read_records(schema::ImageStore& images,
-                                   const schema::IdRange& range,
-                                   std::size_t most,
-                                   const std::function<bool()>& go_on) {
-    StoredRecords records;
-    records.variants[ingest::kMainVariant].reserve(most);
+Result<void> StoredPictures::read(schema::ImageStore& images,
+                                  const schema::IdRange& range,
+                                  std::size_t most,
+                                  const std::function<bool()>& go_on) {
+    begin(most);
     bool interrupted = false;
     const auto sequence =
         images.for_each_searchable(range, [&](const schema::SearchableImage& image) {
-            ++records.images;
+            ++images_;
             decode_signatures(
                 image,
-                [&](const std::string& variant, image::Signature&& signature) {
-                    image::Record& record = records.variants[variant].emplace_back();
-                    record.id = image.id;
-                    record.signature = std::move(signature);
-                    record.log_aspect = log_aspect_of(image);
+                [&](const std::string& variant, const image::Signature& signature) {
+                    add(variant, image, signature);
                 },
                 [&](std::string reason) {
-                    records.damaged.push_back({image.id, std::move(reason)});
+                    damaged_.push_back({image.id, std::move(reason)});
                 });
             interrupted = !go_on();
             return !interrupted;
         });
     if (!sequence) return sequence.error();
     if (interrupted) return stopped();
-    records.sequence = sequence.value();
-    return records;
+    sequence_ = sequence.value();
+    return {};
+}
+
+void StoredPictures::begin(std::size_t most) {
+    images_ = 0;
+    damaged_.clear();
+    for (auto& [variant, pieces] : variants_) {
+        while (pieces.size() > 1) pieces.pop_back();
+        pieces.front().clear();
+    }
+    Pieces& main = variants_[ingest::kMainVariant];
+    if (main.empty()) main.emplace_back(index_m_);
+    main.front().reserve(most);
+}
+
+void StoredPictures::add(const std::string& variant,
+                         const schema::SearchableImage& image,
+                         const image::Signature& signature) {
+    Pieces& pieces = variants_[variant];
+    // Pictures that came meanwhile may make it more than one.
+    if (pieces.empty() || pieces.back().size() == most_in_piece_)
+        pieces.emplace_back(index_m_);
+    pieces.back().add(image.id, signature, log_aspect_of(image));
 }
 
 int pictures_per_segment(std::int64_t images, int threads) {
@@ -113,9 +126,13 @@ Result<Rebuilt> rebuild(ReadConnections& connections,
         if (!found) return std::move(found).error();
         ranges = std::move(found).value();
     }
+    PicturesPool pool([&]() -> Result<std::unique_ptr<StoredPictures>> {
+        return std::make_unique<StoredPictures>(options.index_m,
+                                                std::size_t{image::kMaxSegmentSlots});
+    });
     std::vector<std::optional<Result<Rebuilt>>> parts(ranges.size());
     executor.parallel_for(ranges.size(), [&](std::size_t i) {
-        parts[i].emplace(rebuild_range(connections, ranges[i], size, options));
+        parts[i].emplace(rebuild_range(connections, pool, ranges[i], size, options));
     });
     for (std::size_t i = 0; i < parts.size(); ++i) {
         Result<Rebuilt>& part = *parts[i];

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "server/app/lending_pool.h"
 #include "server/app/mapped_file.h"
 #include "server/app/rebuild.h"
 #include "server/app/snapshot_reader.h"
@@ -20,6 +23,9 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+// Of all threads of the process.
+double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 template <typename T>
 T must(Result<T> result) {
@@ -42,18 +48,27 @@ ReadTime read_signatures(const PartsOptions& options) {
     server::ThreadExecutor executor(options.threads - 1);
     ReadTime time;
     const auto started = Clock::now();
+    const double before = processor_seconds();
     auto connection = must(connections.lend());
     const schema::Counts counts = must(connection->images().counts());
     const int size = server::pictures_per_segment(counts.indexed, options.threads);
     const auto ranges = must(connection->images().searchable_ranges(size));
+    server::LendingPool<server::StoredPictures> pool(
+        [&]() -> Result<std::unique_ptr<server::StoredPictures>> {
+            return std::make_unique<server::StoredPictures>(
+                options.index_m, std::size_t{image::kMaxSegmentSlots});
+        });
     std::atomic<std::int64_t> images{0};
     executor.parallel_for(ranges.size(), [&](std::size_t i) {
         const auto own = must(connections.lend());
-        images += must(server::read_records(
-                           own->images(), ranges[i], std::size_t(size), always))
-                      .images;
+        const auto pictures = must(pool.lend());
+        const auto read =
+            pictures->read(own->images(), ranges[i], std::size_t(size), always);
+        if (!read) throw std::runtime_error(read.error().message);
+        images += pictures->images();
     });
     time.seconds = seconds_since(started);
+    time.processor_seconds = processor_seconds() - before;
     time.images = images;
     return time;
 }
@@ -67,8 +82,10 @@ RebuildTime rebuild_and_write(const PartsOptions& options, const std::string& sn
     rebuilding.go_on = always;
     RebuildTime time;
     auto started = Clock::now();
+    const double before = processor_seconds();
     server::Rebuilt rebuilt = must(server::rebuild(connections, rebuilding, executor));
     time.seconds = seconds_since(started);
+    time.processor_seconds = processor_seconds() - before;
     time.images = rebuilt.images;
 
     server::SnapshotContents contents;
@@ -89,6 +106,7 @@ MapTime map_snapshot(const PartsOptions& options, const std::string& snapshot) {
     MapTime time;
     {
         const auto started = Clock::now();
+        const double before = processor_seconds();
         server::ThreadExecutor executor(options.threads - 1);
         const auto contents = must(server::read_snapshot(
             snapshot,
@@ -96,6 +114,7 @@ MapTime map_snapshot(const PartsOptions& options, const std::string& snapshot) {
             [](const server::SnapshotTable&) { return Result<void>(); },
             executor));
         time.seconds = seconds_since(started);
+        time.processor_seconds = processor_seconds() - before;
     }
     const auto started = Clock::now();
     server::ThreadExecutor executor(options.threads - 1);

@@ -1,6 +1,7 @@
 // The parts of a start over one database, each measured once.
 //
-// Units   seconds of wall time.
+// Units   seconds of wall time, and of processor time of all threads, which says what there
+//         is to do where other programs want the cores, too.
 // Errors  std::runtime_error naming what failed.
 #pragma once
 
@@ -19,6 +20,7 @@ struct PartsOptions {
 struct ReadTime {
     std::int64_t images = 0;
     double seconds = 0;
+    double processor_seconds = 0;
 };
 [[nodiscard]] ReadTime read_signatures(const PartsOptions& options);
 
@@ -26,6 +28,7 @@ struct ReadTime {
 struct RebuildTime {
     std::int64_t images = 0;
     double seconds = 0;
+    double processor_seconds = 0;
     std::uint64_t snapshot_bytes = 0;
     double snapshot_seconds = 0;  // to write the file and to check it
 };
@@ -36,6 +39,7 @@ struct RebuildTime {
 // alone, which is what reading its bytes costs.
 struct MapTime {
     double seconds = 0;
+    double processor_seconds = 0;
     double checksum_seconds = 0;
 };
 [[nodiscard]] MapTime map_snapshot(const PartsOptions& options,

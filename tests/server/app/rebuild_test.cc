@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -144,6 +146,46 @@ TEST_F(RebuildTest, WhatIsDamagedIsNamedAndLeftOut) {
     EXPECT_TRUE(all->damaged[0].reason.starts_with("other: ")) << all->damaged[0].reason;
     EXPECT_EQ(pictures_of(all->segments),
               (std::map<std::string, std::size_t>{{"yiq-standard", 10}, {"other", 2}}));
+}
+
+// The ids of each piece of a variant.
+std::vector<std::vector<std::int64_t>> ids_of(const StoredPictures& stored,
+                                              const std::string& variant) {
+    std::vector<std::vector<std::int64_t>> pieces;
+    for (const image::PackedPictures& piece : stored.variants().at(variant)) {
+        std::vector<std::int64_t>& ids = pieces.emplace_back();
+        for (const ImageId id : piece.columns().ids) ids.push_back(to_int(id));
+    }
+    return pieces;
+}
+
+TEST_F(RebuildTest, MorePicturesThanASegmentHoldsAreSeveralPieces) {
+    fill(7);
+    StoredPictures stored(60, 3);
+    const auto on = [] { return true; };
+    const auto connection = beside(collection_);
+    ASSERT_TRUE(stored.read(connection->images(), {ImageId{1}, ImageId{7}}, 7, on));
+    EXPECT_EQ(stored.images(), 7);
+    EXPECT_EQ(ids_of(stored, "yiq-standard"),
+              (std::vector<std::vector<std::int64_t>>{{1, 2, 3}, {4, 5, 6}, {7}}));
+    EXPECT_EQ(ids_of(stored, "other"), (std::vector<std::vector<std::int64_t>>{{3, 6}}));
+}
+
+TEST_F(RebuildTest, WhatIsReadAgainIsReadAnew) {
+    fill(9);
+    const auto connection = beside(collection_);
+    schema::ImageStore& images = connection->images();
+    ASSERT_TRUE(images.set_variant(ImageId{3}, {"other", {1, 2}}));
+    StoredPictures stored(60, 2);
+    const auto on = [] { return true; };
+    ASSERT_TRUE(stored.read(images, {ImageId{1}, ImageId{7}}, 7, on));
+    EXPECT_EQ(stored.damaged().size(), 1U);
+    ASSERT_TRUE(stored.read(images, {ImageId{7}, ImageId{8}}, 1, on));
+    EXPECT_EQ(stored.images(), 2);
+    EXPECT_TRUE(stored.damaged().empty());
+    EXPECT_EQ(ids_of(stored, "yiq-standard"),
+              (std::vector<std::vector<std::int64_t>>{{7, 8}}));
+    EXPECT_EQ(ids_of(stored, "other"), (std::vector<std::vector<std::int64_t>>{{}}));
 }
 
 TEST_F(RebuildTest, OfNothingIsNothing) {
