@@ -23,6 +23,8 @@ struct FileReading {
     std::string path;
     std::string uri;
     Reading reading;
+    bool is_film = false;
+    bool has_key_frames = false;  // rows of key frames that were known when it was read
 };
 
 class Batch {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "ingest/media_fragment.h"
 #include "ingest/stored_profile.h"
 
 namespace haarmony::ingest {
@@ -28,6 +29,17 @@ Result<std::vector<image::SignatureKind>> StoredCatalogue::kinds_in_use() {
 Result<std::optional<schema::KnownFile>> StoredCatalogue::look_up(
     const std::string& uri) {
     return reader_.known_file(uri);
+}
+
+Result<std::vector<FilmRow>> StoredCatalogue::look_up_key_frames(const std::string& uri) {
+    std::vector<FilmRow> rows;
+    const Result<void> read = reader_.for_each_file(
+        key_frame_prefix(uri),
+        [&](const schema::KnownFile& known, const std::string& row_uri) {
+            rows.push_back({known, row_uri});
+        });
+    if (!read) return read.error();
+    return rows;
 }
 
 Result<void> StoredCatalogue::transaction(const std::function<Result<void>()>& work) {

@@ -1,7 +1,7 @@
 // What ingest needs of the database, so that tests can stand in for it and fail at will.
 //
 // Errors  as ImageStore.
-// Threads look_up() is called on the walker's thread; everything else on the thread that
+// Threads look_up() and look_up_key_frames() are called on the walker's thread; everything else on the thread that
 //         called run(), and all that writes inside transaction().
 #pragma once
 
@@ -19,11 +19,20 @@
 
 namespace haarmony::ingest {
 
+// One of the rows of a film (film_rows.h).
+struct FilmRow {
+    schema::KnownFile known;
+    std::string uri;
+};
+
 class Catalogue {
   public:
     virtual ~Catalogue() = default;
 
     [[nodiscard]] virtual Result<std::optional<schema::KnownFile>> look_up(
+        const std::string& uri) = 0;
+    // The rows of a film's key frames.
+    [[nodiscard]] virtual Result<std::vector<FilmRow>> look_up_key_frames(
         const std::string& uri) = 0;
 
     [[nodiscard]] virtual Result<void> transaction(
@@ -56,6 +65,7 @@ class StoredCatalogue final : public Catalogue {
     [[nodiscard]] Result<std::vector<image::SignatureKind>> kinds_in_use();
 
     Result<std::optional<schema::KnownFile>> look_up(const std::string& uri) override;
+    Result<std::vector<FilmRow>> look_up_key_frames(const std::string& uri) override;
     Result<void> transaction(const std::function<Result<void>()>& work) override;
     Result<std::optional<schema::KnownFile>> known_file(const std::string& uri) override;
     Result<void> add(const schema::NewImage& image) override;

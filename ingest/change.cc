@@ -1,5 +1,6 @@
 #include "ingest/change.h"
 
+#include <chrono>
 #include <utility>
 
 namespace haarmony::ingest {
@@ -11,12 +12,6 @@ using schema::KnownFile;
 bool has_content(const std::optional<KnownFile>& known, const std::string& content_hash) {
     return known && !known->stamp.content_hash.empty() &&
            known->stamp.content_hash == content_hash;
-}
-
-// A row whose state says all that its content can: nothing to gain by decoding it again.
-bool is_final(const std::optional<KnownFile>& known, bool restore) {
-    return known && (known->state == ImageState::kIndexed ||
-                     (known->state == ImageState::kDeleted && !restore));
 }
 
 struct Settle {
@@ -38,6 +33,8 @@ struct Settle {
         }
         return {RowOperation::kUpdate, CountedAs::kUpdated};
     }
+    // Has rows of its own: film_rows.h.
+    Settlement operator()(const DescribedFilm&) const { return {}; }
     Settlement operator()(const Undecodable& undecodable) const {
         if (is_final(known, restore) &&
             has_content(known, undecodable.stamp.content_hash)) {
@@ -54,6 +51,11 @@ struct Settle {
 
 }  // namespace
 
+bool is_final(const std::optional<KnownFile>& known, bool restore) {
+    return known && (known->state == ImageState::kIndexed ||
+                     (known->state == ImageState::kDeleted && !restore));
+}
+
 Need first_need(const std::optional<KnownFile>& known,
                 const FileLook& look,
                 bool restore) {
@@ -62,6 +64,12 @@ Need first_need(const std::optional<KnownFile>& known,
                              known->stamp.mtime_ns == look.mtime_ns &&
                              known->stamp.size == look.size;
     return as_recorded ? Need::kNothing : Need::kCompare;
+}
+
+std::int64_t now_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
 }
 
 schema::FileStamp stamp_of(const FileLook& look,

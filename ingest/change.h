@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "ingest/walk.h"
 #include "schema/image_store.h"
@@ -35,9 +36,15 @@ enum class Need {
     kDecode,
 };
 
+// Whether a row's state says all that its content can: nothing to gain by decoding again.
+[[nodiscard]] bool is_final(const std::optional<schema::KnownFile>& known, bool restore);
+
 [[nodiscard]] Need first_need(const std::optional<schema::KnownFile>& known,
                               const FileLook& look,
                               bool restore);
+
+// The system's clock.
+[[nodiscard]] std::int64_t now_ns();
 
 // What to record of a file that was read at `now_ns`.
 [[nodiscard]] schema::FileStamp stamp_of(const FileLook& look,
@@ -51,6 +58,10 @@ struct SameContent {
 struct Described {
     schema::NewImage image;
 };
+struct DescribedFilm {  // film_rows.h
+    schema::FileStamp stamp;
+    std::vector<schema::NewImage> frames;  // with their own stamps and addresses
+};
 struct Undecodable {
     schema::FileStamp stamp;
     std::string reason;
@@ -59,7 +70,8 @@ struct Unreadable {  // the bytes are not known
     schema::FileStamp stamp;
     std::string reason;
 };
-using Reading = std::variant<SameContent, Described, Undecodable, Unreadable>;
+using Reading =
+    std::variant<SameContent, Described, DescribedFilm, Undecodable, Unreadable>;
 
 enum class RowOperation { kNone, kTouch, kAdd, kUpdate, kMarkFailed };
 enum class CountedAs { kAdded, kUpdated, kSkipped, kFailed };
@@ -72,7 +84,7 @@ struct Settlement {
 };
 
 // `known` is the row at the time of writing. A file that was recorded and can for now not be
-// read keeps its row as it is.
+// read keeps its row as it is. Requires: not the reading of a film.
 [[nodiscard]] Settlement settle(const std::optional<schema::KnownFile>& known,
                                 const Reading& reading,
                                 bool restore);

@@ -23,6 +23,13 @@ constexpr const char* kFooter =
     "followed unless they are a PATH, special files are ignored. A file that vanishes\n"
     "while it is waiting for its turn is passed over.\n"
     "\n"
+    "With --videos films are candidates as well, by extension or first bytes. A film is "
+    "one\n"
+    "seen; each of its key frames has a row of its own, FILE#t=SECONDS, and is counted "
+    "as\n"
+    "added, updated or, where the film has changed and has it no more, pruned. All of a\n"
+    "film is committed at once. An unchanged film is skipped.\n"
+    "\n"
     "GLOB: without a '/' it is compared with the name of each file and folder below a "
     "PATH,\n"
     "with one with the path below that PATH. '*' is any run of bytes but '/', '**' any "
@@ -83,9 +90,17 @@ Result<CommandLine> parse_command_line(std::vector<std::string> arguments) {
     app.add_option("--jobs", line.pipeline.jobs, "pictures decoded at a time")
         ->check(CLI::Range(1, kMostJobs))
         ->type_name("N");
-    app.add_option(
-           "--max-file-bytes", line.pipeline.max_file_bytes, "a larger file is a failure")
+    app.add_option("--max-file-bytes",
+                   line.pipeline.max_file_bytes,
+                   "a larger picture is a failure")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+        ->type_name("N");
+    app.add_flag(
+        "--videos", line.pipeline.walk.films, "record the key frames of films, too");
+    app.add_option("--max-key-frames",
+                   line.most_key_frames,
+                   "of a film, evenly spaced where it has more")
+        ->check(CLI::Range(1, kLargestMostKeyFrames))
         ->type_name("N");
     app.add_flag(
         "--prune",

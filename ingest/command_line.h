@@ -16,7 +16,8 @@ namespace haarmony::ingest {
 struct CommandLine {
     std::string database;
     PipelineOptions pipeline;
-    std::optional<ProgressMode> progress;  // nothing: by what stdout is
+    std::size_t most_key_frames = kMostKeyFrames;  // of a film
+    std::optional<ProgressMode> progress;          // nothing: by what stdout is
     std::string answer;  // not empty (--help, --version): print it, and that is all
 };
 

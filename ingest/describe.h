@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ inline constexpr std::array<image::SignatureKind, 1> kMainKind{};
     std::span<const std::uint8_t> bytes,
     std::span<const image::SignatureKind> kinds);
 
+// The same of pixels that are there, without what the bytes gave: media type, size and hash.
+[[nodiscard]] Result<schema::NewImage> describe_pixels(
+    const ImageView& picture,
+    std::span<const image::SignatureKind> kinds);
+
 // The signatures of one picture under their names (variant.h): those of `kinds`, in their
 // order, and then those of what is within its borders, where it has borders.
 [[nodiscard]] std::vector<schema::SignatureVariant> signature_variants(
@@ -34,5 +40,9 @@ inline constexpr std::array<image::SignatureKind, 1> kMainKind{};
 
 // Lower-case hex of SHA-256.
 [[nodiscard]] std::string content_hash(std::span<const std::uint8_t> bytes);
+// Of what a file holds, which need not fit in memory. kIo where it cannot be read;
+// kUnavailable when `keep_going` says no.
+[[nodiscard]] Result<std::string> content_hash(int file,
+                                               const std::function<bool()>& keep_going);
 
 }  // namespace haarmony::ingest

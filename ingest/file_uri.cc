@@ -5,6 +5,8 @@
 #include <optional>
 #include <system_error>
 
+#include "ingest/media_fragment.h"
+
 namespace haarmony::ingest {
 namespace {
 
@@ -50,7 +52,7 @@ std::string file_uri(std::string_view path) {
 Result<std::string> path_from_file_uri(std::string_view uri) {
     if (!uri.starts_with(kScheme))
         return not_a_file_uri(uri, "does not start with file://");
-    const std::string_view encoded = uri.substr(kScheme.size());
+    const std::string_view encoded = without_fragment(uri).substr(kScheme.size());
     if (!encoded.starts_with('/')) return not_a_file_uri(uri, "names a host");
     std::string path;
     path.reserve(encoded.size());

@@ -4,6 +4,7 @@
 //         digits of ASCII, '-', '.', '_', '~' and '/' stand for themselves and every other
 //         byte is %XX in upper case. One path has one address; the address of a folder
 //         plus '/' is a prefix of the addresses of all that lies below, and of nothing else.
+//         A fragment (media_fragment.h) names a part of the file and is left aside.
 // Errors  path_from_file_uri: kInvalidArgument for another scheme, a host, a relative path,
 //         a damaged escape or an encoded zero byte.
 // Source  RFC 8089, RFC 3986 section 2.3.

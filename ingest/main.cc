@@ -104,12 +104,12 @@ int main(int argc, char** argv) {
 
     ingest::Progress progress(
         mode, terminal_columns(), std::cout, std::cerr, ingest::Progress::Clock::now);
-    const ingest::Report report =
-        ingest::run(line->pipeline,
-                    **catalogue,
-                    ingest::picture_steps(std::move(kinds).value()),
-                    progress,
-                    stop);
+    const ingest::Report report = ingest::run(
+        line->pipeline,
+        **catalogue,
+        ingest::picture_steps(std::move(kinds).value(), line->most_key_frames),
+        progress,
+        stop);
     progress.done(report.tally);
     if (!report.outcome) complain(report.outcome.error());
     return exit_code(report);

@@ -10,6 +10,7 @@
 #include "ingest/bounded_queue.h"
 #include "ingest/byte_budget.h"
 #include "ingest/file_uri.h"
+#include "ingest/film_rows.h"
 #include "ingest/prune.h"
 #include "ingest/read_file.h"
 
@@ -29,6 +30,7 @@ struct Job {
     FoundFile file;
     std::string uri;
     std::optional<schema::KnownFile> known;
+    std::vector<FilmRow> key_frames;  // where it was a film
     Need need = Need::kDecode;
 };
 
@@ -41,12 +43,6 @@ struct CatalogueFailure {
     Error error;
 };
 using Event = std::variant<FileReading, Unchanged, WalkFailure, CatalogueFailure>;
-
-std::int64_t now_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
 
 // Reads one file and finds out what it needs. Nothing: it is not there any more.
 std::optional<Reading> read_and_describe(const Job& job,
@@ -62,7 +58,7 @@ std::optional<Reading> read_and_describe(const Job& job,
                           content.error().message};
     }
     const std::span<const std::uint8_t> bytes(content->bytes);
-    if (job.need == Need::kCompare) {
+    if (job.need == Need::kCompare && job.known) {
         std::string hash = steps.content_hash(bytes);
         if (hash == job.known->stamp.content_hash) {
             return SameContent{stamp_of(content->look, started_ns, std::move(hash))};
@@ -159,9 +155,19 @@ class Run {
             events_.push(CatalogueFailure{known.error()});
             return false;
         }
-        const Need need = first_need(*known, file.look, options_.restore);
+        Result<std::vector<FilmRow>> key_frames = std::vector<FilmRow>();
+        if (options_.walk.films) key_frames = catalogue_.look_up_key_frames(uri);
+        if (!key_frames) {
+            events_.push(CatalogueFailure{key_frames.error()});
+            return false;
+        }
+        const Need need = film_need(*known, *key_frames, file.look, options_.restore);
         if (need == Need::kNothing) return events_.push(Unchanged{});
-        return jobs_.push({std::move(file), std::move(uri), std::move(*known), need});
+        return jobs_.push({std::move(file),
+                           std::move(uri),
+                           std::move(*known),
+                           std::move(*key_frames),
+                           need});
     }
 
     void work() {
@@ -169,14 +175,25 @@ class Run {
         const ReadLimits limits{.max_bytes = options_.max_file_bytes};
         while (std::optional<Job> job = jobs_.pop()) {
             if (!keep_going()) continue;
+            const std::optional<OpenFilm> film =
+                options_.walk.films ? open_film(job->file.path) : std::nullopt;
             std::optional<Reading> reading =
-                read_and_describe(*job, steps, limits, budget_);
+                film ? read_film(*film,
+                                 job->uri,
+                                 job->key_frames,
+                                 job->need,
+                                 steps.film,
+                                 [this] { return keep_going(); })
+                     : read_and_describe(*job, steps, limits, budget_);
             if (!reading) continue;
             // Ctrl-C reaches the decoders' children as well: what fails while the run is
             // being stopped may not be the file's fault. The next run tells.
             if (stop_ && std::holds_alternative<Undecodable>(*reading)) continue;
-            events_.push(FileReading{
-                std::move(job->file.path), std::move(job->uri), std::move(*reading)});
+            events_.push(FileReading{std::move(job->file.path),
+                                     std::move(job->uri),
+                                     std::move(*reading),
+                                     film.has_value(),
+                                     !job->key_frames.empty()});
         }
         if (--workers_left_ == 0) events_.close();
     }

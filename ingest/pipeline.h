@@ -6,6 +6,7 @@
 //
 // Scale   memory: the queues, one batch, one folder's names, and file_bytes for the bytes
 //         of files (one file alone may be as large as max_file_bytes).
+//         Films are read in pieces, in a child process.
 // Errors  Report::outcome: the catalogue's. Files and folders that fail are reported to the
 //         observer and counted; they never end the run.
 // Threads run() starts its own threads and returns when they have ended; the calling thread
@@ -24,6 +25,7 @@
 #include "engine/core/result.h"
 #include "engine/image/signature_kind.h"
 #include "ingest/catalogue.h"
+#include "ingest/read_film.h"
 #include "ingest/tally.h"
 #include "ingest/walk.h"
 #include "ingest/writer.h"
@@ -35,11 +37,14 @@ namespace haarmony::ingest {
 struct PictureSteps {
     std::function<Result<schema::NewImage>(std::span<const std::uint8_t>)> describe;
     std::function<std::string(std::span<const std::uint8_t>)> content_hash;
+    FilmSteps film = {};  // where the walk finds films
 };
 using MakePictureSteps = std::function<PictureSteps()>;
 
-// The real ones: decode.h, describe.h. Requires: `kinds` starts with the default kind.
-[[nodiscard]] MakePictureSteps picture_steps(std::vector<image::SignatureKind> kinds);
+// The real ones: decode.h, video_source.h, describe.h; of a film at most so many key frames
+// (key_frames.h). Requires: `kinds` starts with the default kind; most_key_frames >= 1.
+[[nodiscard]] MakePictureSteps picture_steps(std::vector<image::SignatureKind> kinds,
+                                             std::size_t most_key_frames);
 
 struct PipelineOptions {
     std::vector<std::string> paths = {};
@@ -48,7 +53,7 @@ struct PipelineOptions {
     bool prune = false;
     bool restore = false;
     bool count_ahead = false;  // a second walk tells the observer how many there will be
-    std::int64_t max_file_bytes = std::int64_t{1} << 30;
+    std::int64_t max_file_bytes = std::int64_t{1} << 30;  // of a picture
     std::int64_t file_bytes = std::int64_t{1} << 30;
 };
 

@@ -1,8 +1,10 @@
 // What became of the files of one run.
 //
-// Scale   seen = added + updated + skipped + (failed files). `failed` is the number of
-//         failures reported: files, folders that could not be read, PATHs of no use. Only
-//         what is committed is counted.
+// Scale   of pictures, seen = added + updated + skipped + (failed files). A film is one seen
+//         and its key frames are counted one by one: those added, those updated, and as
+//         pruned those that it has no more; one where none was written is one skipped.
+//         `failed` is the number of failures reported: files, folders that could not be
+//         read, PATHs of no use. Only what is committed is counted.
 #pragma once
 
 #include <cstdint>

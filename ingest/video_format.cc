@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <string>
 
 #include "ingest/byte_reader.h"
 #include "ingest/sniff.h"
@@ -12,20 +13,49 @@ namespace {
 
 using std::string_view_literals::operator""sv;
 
-constexpr std::array<std::string_view, kVideoFormats> kNames = {
-    "MP4 video",
-    "Matroska video",
-    "AVI video",
-    "MPEG program stream",
-    "MPEG transport stream",
-    "MPEG video",
-    "Ogg video",
-    "Flash video",
-    "YUV4MPEG2 video",
-    "GIF",
-    "PNG",
-    "WebP",
+struct Description {
+    std::string_view name;
+    std::string_view media_type;
+    bool film;
 };
+
+constexpr std::array<Description, kVideoFormats> kDescriptions = {{
+    {"MP4 video", "video/mp4", true},
+    {"Matroska video", "video/x-matroska", true},
+    {"AVI video", "video/x-msvideo", true},
+    {"MPEG program stream", "video/mpeg", true},
+    {"MPEG transport stream", "video/mp2t", true},
+    {"MPEG video", "video/mpeg", true},
+    {"Ogg video", "video/ogg", true},
+    {"Flash video", "video/x-flv", true},
+    {"YUV4MPEG2 video", "video/x-yuv4mpeg", true},
+    {"GIF", "image/gif", false},
+    {"PNG", "image/png", false},
+    {"WebP", "image/webp", false},
+}};
+
+// "ts" and "mts" are source text more often: these are known by their bytes alone.
+constexpr std::string_view kFilmExtensions =
+    " 3gp avi flv m2ts m4v mkv mov mp4 mpeg mpg ogv qt webm y4m ";
+constexpr std::string_view kSoundExtensions = " m4a m4b mka oga ogg opus spx weba ";
+
+const Description& description_of(VideoFormat format) {
+    const auto index = static_cast<std::size_t>(format);
+    assert(index < kDescriptions.size());
+    return kDescriptions[index];
+}
+
+bool has_extension(std::string_view file_name, std::string_view extensions) {
+    const std::size_t dot = file_name.rfind('.');
+    if (dot == std::string_view::npos || dot + 1 == file_name.size()) return false;
+    std::string word = " ";
+    for (const char c : file_name.substr(dot + 1)) {
+        if (c == ' ') return false;
+        word.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c);
+    }
+    word += ' ';
+    return extensions.find(word) != std::string_view::npos;
+}
 
 struct Magic {
     std::size_t offset;
@@ -56,10 +86,20 @@ bool is_transport_stream(const ByteReader& reader) {
 
 }  // namespace
 
-std::string_view name_of(VideoFormat format) {
-    const auto index = static_cast<std::size_t>(format);
-    assert(index < kNames.size());
-    return kNames[index];
+std::string_view name_of(VideoFormat format) { return description_of(format).name; }
+
+std::string_view media_type_of(VideoFormat format) {
+    return description_of(format).media_type;
+}
+
+bool is_film(VideoFormat format) { return description_of(format).film; }
+
+bool has_film_extension(std::string_view file_name) {
+    return has_extension(file_name, kFilmExtensions);
+}
+
+bool has_sound_extension(std::string_view file_name) {
+    return has_extension(file_name, kSoundExtensions);
 }
 
 std::optional<VideoFormat> sniff_video(std::span<const std::uint8_t> bytes) {

@@ -29,7 +29,15 @@ enum class VideoFormat : std::uint32_t {
 };
 inline constexpr std::uint32_t kVideoFormats = 12;
 
-[[nodiscard]] std::string_view name_of(VideoFormat format);  // "MP4 video"
+[[nodiscard]] std::string_view name_of(VideoFormat format);        // "MP4 video"
+[[nodiscard]] std::string_view media_type_of(VideoFormat format);  // "video/mp4"
+// Whether it is moving pictures alone, and not what pictures are stored in as well.
+[[nodiscard]] bool is_film(VideoFormat format);
 [[nodiscard]] std::optional<VideoFormat> sniff_video(std::span<const std::uint8_t> bytes);
+
+// Whether the name ends in an extension of films, and of films alone, in any case.
+[[nodiscard]] bool has_film_extension(std::string_view file_name);
+// The same of sound in the containers of films.
+[[nodiscard]] bool has_sound_extension(std::string_view file_name);
 
 }  // namespace haarmony::ingest

@@ -18,6 +18,7 @@
 #include "ingest/file_descriptor.h"
 #include "ingest/file_uri.h"
 #include "ingest/sniff.h"
+#include "ingest/video_format.h"
 
 namespace haarmony::ingest {
 namespace {
@@ -147,8 +148,7 @@ class Walk {
                 is_excluded(below_root, false) || named_files_.contains(below)) {
                 continue;
             }
-            if (!has_picture_extension(name) && !begins_like_picture(number, name))
-                continue;
+            if (!is_candidate(number, name)) continue;
             if (!events_.on_file({std::move(below), look_of(entry)})) return false;
         }
         std::move(folders.rbegin(), folders.rend(), std::back_inserter(pending));
@@ -164,7 +164,13 @@ class Walk {
         return events_.on_failure(path, error);
     }
 
-    static bool begins_like_picture(int folder, const std::string& name) {
+    bool is_candidate(int folder, const std::string& name) const {
+        return has_picture_extension(name) ||
+               (options_.films && has_film_extension(name)) ||
+               begins_like_candidate(folder, name);
+    }
+
+    bool begins_like_candidate(int folder, const std::string& name) const {
         // The file may have become a fifo: O_NONBLOCK keeps open() from waiting for a writer.
         const FileDescriptor file(
             ::openat(folder, name.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
@@ -176,8 +182,12 @@ class Walk {
         std::array<std::uint8_t, kSniffBytes> begin{};
         const ssize_t count = ::pread(file.get(), begin.data(), begin.size(), 0);
         if (count <= 0) return false;
-        const auto type = sniff(std::span(begin).first(static_cast<std::size_t>(count)));
-        return type && type->format;
+        const auto bytes = std::span(begin).first(static_cast<std::size_t>(count));
+        const auto type = sniff(bytes);
+        if (type && type->format) return true;
+        if (!options_.films || has_sound_extension(name)) return false;
+        const auto clip = sniff_video(bytes);
+        return clip && is_film(*clip);
     }
 
     bool is_excluded(std::string_view below, bool is_folder) const {

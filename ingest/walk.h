@@ -56,6 +56,7 @@ struct FileIdentity {
 struct WalkOptions {
     std::vector<Exclusion> exclude;  // a folder that is a PATH is walked all the same
     std::vector<FileIdentity> own_files;  // never candidates
+    bool films = false;      // are candidates as well, by extension or first bytes
     bool file_links = true;  // below a PATH; false where a link may lead out of bounds
 };
 

@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include "ingest/film_rows.h"
+
 namespace haarmony::ingest {
 namespace {
 
@@ -14,6 +16,9 @@ const schema::FileStamp& stamp_in(const Reading& reading) {
         }
         const schema::FileStamp& operator()(const Described& described) const {
             return described.image.stamp;
+        }
+        const schema::FileStamp& operator()(const DescribedFilm& film) const {
+            return film.stamp;
         }
         const schema::FileStamp& operator()(const Undecodable& undecodable) const {
             return undecodable.stamp;
@@ -31,6 +36,25 @@ const std::string& reason_in(const Reading& reading) {
     return std::get<Undecodable>(reading).reason;
 }
 
+Tally tally_of(CountedAs counted_as) {
+    Tally tally{.seen = 1};
+    switch (counted_as) {
+        case CountedAs::kAdded:
+            ++tally.added;
+            break;
+        case CountedAs::kUpdated:
+            ++tally.updated;
+            break;
+        case CountedAs::kSkipped:
+            ++tally.skipped;
+            break;
+        case CountedAs::kFailed:
+            ++tally.failed;
+            break;
+    }
+    return tally;
+}
+
 }  // namespace
 
 Result<void> Writer::take(FileReading reading, Batch::TimePoint now) {
@@ -44,58 +68,63 @@ Result<void> Writer::write_if_due(Batch::TimePoint now) {
 
 Result<void> Writer::write() {
     if (batch_.empty()) return {};
-    std::vector<Settlement> settlements;
+    std::vector<Tally> counts;
     Result<void> written = catalogue_.transaction([&]() -> Result<void> {
-        settlements.assign(batch_.readings().size(), {});
-        for (std::size_t i = 0; i < settlements.size(); ++i) {
-            Result<void> one = write_one(batch_.readings()[i], settlements[i]);
-            if (!one) return one;
+        counts.clear();
+        for (const FileReading& reading : batch_.readings()) {
+            const Result<Tally> one = write_one(reading);
+            if (!one) return one.error();
+            counts.push_back(*one);
         }
         return {};
     });
     if (!written) return written;
-    for (std::size_t i = 0; i < settlements.size(); ++i) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        tally_ += counts[i];
         const FileReading& reading = batch_.readings()[i];
-        ++tally_.seen;
-        switch (settlements[i].counted_as) {
-            case CountedAs::kAdded:
-                ++tally_.added;
-                break;
-            case CountedAs::kUpdated:
-                ++tally_.updated;
-                break;
-            case CountedAs::kSkipped:
-                ++tally_.skipped;
-                break;
-            case CountedAs::kFailed:
-                report_failure(reading.path, reason_in(reading.reading));
-                break;
-        }
+        if (counts[i].failed > 0)
+            observer_.failed(reading.path, reason_in(reading.reading));
     }
     batch_.clear();
     return {};
 }
 
-Result<void> Writer::write_one(const FileReading& reading, Settlement& settlement) {
+Result<Tally> Writer::write_one(const FileReading& reading) {
+    if (reading.is_film)
+        return write_film(catalogue_, reading.uri, reading.reading, restore_);
+    if (reading.has_key_frames) {
+        const Result<void> dropped = drop_key_frames(catalogue_, reading.uri);
+        if (!dropped) return dropped.error();
+    }
+    return write_picture(reading);
+}
+
+Result<Tally> Writer::write_picture(const FileReading& reading) {
     const Result<std::optional<schema::KnownFile>> known =
         catalogue_.known_file(reading.uri);
     if (!known) return known.error();
-    settlement = settle(*known, reading.reading, restore_);
+    const Settlement settlement = settle(*known, reading.reading, restore_);
+    Result<void> written;
     switch (settlement.operation) {
         case RowOperation::kNone:
-            return {};
+            break;
         case RowOperation::kTouch:
-            return catalogue_.touch((*known)->id, stamp_in(reading.reading));
+            written = catalogue_.touch((*known)->id, stamp_in(reading.reading));
+            break;
         case RowOperation::kAdd:
-            return catalogue_.add(std::get<Described>(reading.reading).image);
+            written = catalogue_.add(std::get<Described>(reading.reading).image);
+            break;
         case RowOperation::kUpdate:
-            return catalogue_.update((*known)->id,
-                                     std::get<Described>(reading.reading).image);
+            written = catalogue_.update((*known)->id,
+                                        std::get<Described>(reading.reading).image);
+            break;
         case RowOperation::kMarkFailed:
-            return catalogue_.mark_failed(
+            written = catalogue_.mark_failed(
                 reading.uri, stamp_in(reading.reading), reason_in(reading.reading));
+            break;
     }
-    return {};
+    if (!written) return written.error();
+    return tally_of(settlement.counted_as);
 }
 
 void Writer::count_unchanged() {

@@ -43,8 +43,9 @@ class Writer {
     [[nodiscard]] const Tally& tally() const { return tally_; }
 
   private:
-    [[nodiscard]] Result<void> write_one(const FileReading& reading,
-                                         Settlement& settlement);
+    // What is to be counted of it.
+    [[nodiscard]] Result<Tally> write_one(const FileReading& reading);
+    [[nodiscard]] Result<Tally> write_picture(const FileReading& reading);
 
     Catalogue& catalogue_;
     Observer& observer_;

@@ -6,7 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "ingest/media_fragment.h"
 #include "ingest/sniff.h"
+#include "ingest/video_format.h"
 #include "server/api/image_id.h"
 
 namespace haarmony::server {
@@ -27,8 +29,18 @@ struct OriginalFile {
     std::string etag;
 };
 
-// An uploader names any address he likes: what is no picture stays where it is.
-Result<OriginalFile> inspect(const std::string& path, std::string_view media_type) {
+std::string_view media_type_in(std::span<const std::uint8_t> bytes, bool film) {
+    if (film) {
+        const auto format = ingest::sniff_video(bytes);
+        return format ? ingest::media_type_of(*format) : std::string_view();
+    }
+    const auto type = ingest::sniff(bytes);
+    return type && type->format ? type->media_type : std::string_view();
+}
+
+// An uploader names any address he likes: what is no picture, and for the frame of a film no
+// film, stays where it is.
+Result<OriginalFile> inspect(const std::string& path, const schema::Image& image) {
     const Error gone{ErrorCode::kNotFound, "the picture's file is gone"};
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
@@ -38,9 +50,11 @@ Result<OriginalFile> inspect(const std::string& path, std::string_view media_typ
     std::array<char, ingest::kSniffBytes> head{};
     std::ifstream file(path, std::ios::binary);
     file.read(head.data(), head.size());
-    const auto type = ingest::sniff({reinterpret_cast<const std::uint8_t*>(head.data()),
-                                     static_cast<std::size_t>(file.gcount())});
-    if (!type || !type->format || type->media_type != media_type)
+    const std::string_view type =
+        media_type_in({reinterpret_cast<const std::uint8_t*>(head.data()),
+                       static_cast<std::size_t>(file.gcount())},
+                      ingest::is_key_frame_uri(image.uri));
+    if (type.empty() || type != image.media_type)
         return Error{ErrorCode::kNotFound,
                      "the picture's file is not the picture any more"};
     return OriginalFile{size,
@@ -73,7 +87,7 @@ Reply get_original(const Context& context, const http::Request& request) {
     if (!image) return image.error();
     auto path = context.media_roots.locate(image->uri);
     if (!path) return path.error();
-    const auto file = inspect(path.value(), image->media_type);
+    const auto file = inspect(path.value(), image.value());
     if (!file) return file.error();
     http::Response response;
     set_media_headers(response, image->media_type);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "ingest/key_frames.h"
+
 namespace haarmony::server {
 namespace {
 
@@ -68,7 +70,12 @@ json read_ingest(const Context& context, Inputs& inputs) {
         problem.param = "paths";
         inputs.refuse(std::move(problem));
     }
-    return {{"paths", *paths}};
+    json request{{"paths", *paths}};
+    if (const auto videos = inputs.boolean("videos")) request["videos"] = *videos;
+    if (const auto most =
+            inputs.integer("max_key_frames", 1, ingest::kLargestMostKeyFrames))
+        request["max_key_frames"] = *most;
+    return request;
 }
 
 }  // namespace

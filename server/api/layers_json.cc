@@ -15,6 +15,7 @@
 #include "engine/video/clip_shape.h"
 #include "engine/video/ops/composite.h"
 #include "ingest/decode.h"
+#include "ingest/media_fragment.h"
 #include "server/api/base64.h"
 #include "server/api/inputs.h"
 #include "server/api/points_json.h"
@@ -88,7 +89,7 @@ Outcome<StillPicture> stored_image(const Context& context,
     const auto image = context.images.get(id);
     if (!image) return image.error();
     const auto path = context.media_roots.locate(image->uri);
-    if (path) {
+    if (path && !ingest::is_key_frame_uri(image->uri)) {
         const auto file = MappedFile::open(*path);
         if (file) {
             const auto bytes = (*file)->bytes();

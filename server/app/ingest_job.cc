@@ -6,6 +6,7 @@
 
 #include "ingest/catalogue.h"
 #include "ingest/file_uri.h"
+#include "ingest/key_frames.h"
 #include "ingest/pipeline.h"
 
 namespace haarmony::server {
@@ -32,47 +33,63 @@ class JobObserver final : public ingest::Observer {
     JobContext& job_;
 };
 
-// The real paths: a link may lead elsewhere than when the job was queued.
-Result<std::vector<std::string>> paths_of(const std::string& text,
-                                          const MediaRoots& media_roots) {
-    const json request = json::parse(text, nullptr, false);
-    if (!request.is_object() || !request.contains("paths") ||
-        !request["paths"].is_array())
-        return Error{ErrorCode::kInvalidArgument,
-                     "the request " + text + " is not understood"};
+struct Request {
     std::vector<std::string> paths;
-    for (const json& path : request["paths"]) {
-        if (!path.is_string())
-            return Error{ErrorCode::kInvalidArgument,
-                         "the request " + text + " is not understood"};
+    bool videos = false;
+    std::size_t most_key_frames = ingest::kMostKeyFrames;
+};
+
+// With the real paths: a link may lead elsewhere than when the job was queued.
+Result<Request> read_request(const std::string& text, const MediaRoots& media_roots) {
+    const Error unknown{ErrorCode::kInvalidArgument,
+                        "the request " + text + " is not understood"};
+    const json members = json::parse(text, nullptr, false);
+    if (!members.is_object() || !members.contains("paths") ||
+        !members["paths"].is_array())
+        return unknown;
+    Request request;
+    for (const json& path : members["paths"]) {
+        if (!path.is_string()) return unknown;
         Result<std::string> real = media_roots.locate_path(path.get<std::string>());
         if (!real) return std::move(real).error();
-        paths.push_back(std::move(real).value());
+        request.paths.push_back(std::move(real).value());
     }
-    return paths;
+    if (members.contains("videos")) {
+        if (!members["videos"].is_boolean()) return unknown;
+        request.videos = members["videos"];
+    }
+    if (members.contains("max_key_frames")) {
+        if (!members["max_key_frames"].is_number_unsigned() ||
+            members["max_key_frames"] == 0)
+            return unknown;
+        request.most_key_frames = members["max_key_frames"];
+    }
+    return request;
 }
 
 Result<void> run(JobContext& job, const IngestJobOptions& options) {
-    auto paths = paths_of(job.request(), options.media_roots);
-    if (!paths) return std::move(paths).error();
+    auto request = read_request(job.request(), options.media_roots);
+    if (!request) return std::move(request).error();
     auto catalogue = ingest::StoredCatalogue::open(options.database_path);
     if (!catalogue) return std::move(catalogue).error();
     auto kinds = catalogue.value()->kinds_in_use();
     if (!kinds) return std::move(kinds).error();
 
     ingest::PipelineOptions pipeline;
-    pipeline.paths = std::move(paths).value();
+    pipeline.paths = std::move(request->paths);
+    pipeline.walk.films = request->videos;
     pipeline.walk.own_files = ingest::database_files(options.database_path);
     // A link could lead out of the media root, and with it a thumbnail into the open.
     pipeline.walk.file_links = false;
     pipeline.jobs = options.threads;
     pipeline.count_ahead = true;
     JobObserver observer(job);
-    ingest::Report report = ingest::run(pipeline,
-                                        *catalogue.value(),
-                                        ingest::picture_steps(std::move(kinds).value()),
-                                        observer,
-                                        job.stop_flag());
+    ingest::Report report = ingest::run(
+        pipeline,
+        *catalogue.value(),
+        ingest::picture_steps(std::move(kinds).value(), request->most_key_frames),
+        observer,
+        job.stop_flag());
     observer.progress(report.tally, report.tally.seen);
     if (!report.outcome) return std::move(report.outcome).error();
     if (report.stopped && job.cancelled()) return {};

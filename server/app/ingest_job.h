@@ -2,7 +2,8 @@
 //
 //   job_runner -> [ingest_job] -> ingest/pipeline
 //
-// Request  {"paths": [...]}: files and folders below a media root.
+// Request  {"paths": [...]}: files and folders below a media root; "videos": true takes in the
+//          key frames of films as well, at most "max_key_frames" of each.
 // Counts   as ingest/tally.h; failed files are named by their addresses.
 #pragma once
 

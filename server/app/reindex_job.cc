@@ -16,6 +16,7 @@
 #include "ingest/byte_budget.h"
 #include "ingest/describe.h"
 #include "ingest/file_uri.h"
+#include "ingest/media_fragment.h"
 #include "ingest/read_file.h"
 #include "ingest/stored_profile.h"
 #include "ingest/variant.h"
@@ -92,6 +93,11 @@ std::optional<ImageId> id_of(const std::string& position) {
 struct Failure {
     std::string reason;
 };
+
+// Neither an upload has one, nor a frame of a film.
+bool has_original(const schema::Image& row) {
+    return row.origin == schema::ImageOrigin::kFile && !ingest::is_key_frame_uri(row.uri);
+}
 
 class Reindexing {
   public:
@@ -211,7 +217,7 @@ Result<Kinds> Reindexing::lacking(const schema::Image& row) {
 // The bytes that the picture's signatures are made of.
 Result<std::vector<std::uint8_t>> Reindexing::original(const schema::Image& row,
                                                        std::optional<Failure>& failure) {
-    if (row.origin == schema::ImageOrigin::kUpload) {
+    if (!has_original(row)) {
         Result<schema::Thumbnail> thumbnail = images_.thumbnail(row.id);
         if (thumbnail) return std::move(thumbnail->bytes);
         if (thumbnail.error().code != ErrorCode::kNotFound) return thumbnail.error();
@@ -240,7 +246,7 @@ Result<std::vector<std::uint8_t>> Reindexing::original(const schema::Image& row,
 Result<void> Reindexing::renew(const schema::Image& row) {
     Result<Kinds> missing = lacking(row);
     if (!missing) return missing.error();
-    const bool anew = request_.all && row.origin == schema::ImageOrigin::kFile;
+    const bool anew = request_.all && has_original(row);
     const Kinds& kinds = anew ? request_.kinds : missing.value();
     if (kinds.empty()) {
         ++job_.counts().skipped;

@@ -8,8 +8,9 @@
 // Counts   updated: has new signatures; skipped: lacked none, or is gone; failed: named in
 //          the errors, and still found under the kinds that it has.
 //
-// An original is used only while it is byte by byte what was ingested. An upload has none:
-// what it lacks is made of its thumbnail, and what it has is never replaced.
+// An original is used only while it is byte by byte what was ingested. An upload has none,
+// nor has a frame of a film: what they lack is made of their thumbnails, and what they have is never
+// replaced.
 #pragma once
 
 #include "ingest/decode.h"

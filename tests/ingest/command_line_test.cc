@@ -93,9 +93,24 @@ TEST(CommandLine, WhatIsWrongIsNamed) {
     }
 }
 
+TEST(CommandLine, FilmsAreLookedForWhenAskedForAndHaveALimit) {
+    const auto without = parse_command_line({"--db", "d", "x"});
+    ASSERT_TRUE(without);
+    EXPECT_FALSE(without->pipeline.walk.films);
+    EXPECT_EQ(without->most_key_frames, kMostKeyFrames);
+    const auto with =
+        parse_command_line({"--db", "d", "--videos", "--max-key-frames", "7", "x"});
+    ASSERT_TRUE(with) << with.error().message;
+    EXPECT_TRUE(with->pipeline.walk.films);
+    EXPECT_EQ(with->most_key_frames, 7u);
+    const auto none = parse_command_line({"--db", "d", "--max-key-frames", "0", "x"});
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("--max-key-frames"));
+}
+
 TEST(CommandLine, WhatIsNotBuiltYetDoesNotExist) {
     for (const char* option :
-         {"--urls", "--videos", "--watch", "--import-iqdb", "--export", "--import"}) {
+         {"--urls", "--watch", "--import-iqdb", "--export", "--import"}) {
         const auto line = parse_command_line({"--db", "d", "x", option, "y"});
         ASSERT_FALSE(line) << option;
         EXPECT_THAT(line.error().message, HasSubstr(option));

@@ -30,6 +30,7 @@ class MemoryCatalogue final : public Catalogue {
     // Counted from 1; 0: none fails.
     int failing_transaction = 0;
     int failing_lookup = 0;
+    int failing_key_frame_lookup = 0;
     std::function<void()> before_transaction = [] {};
 
     std::vector<int> operations_per_transaction;
@@ -51,6 +52,16 @@ class MemoryCatalogue final : public Catalogue {
         looked_up_.notify_all();
         if (lookups_ == failing_lookup) return failure("lookup");
         return find(uri);
+    }
+    Result<std::vector<FilmRow>> look_up_key_frames(const std::string& uri) override {
+        std::vector<FilmRow> found;
+        for (const auto& [row_uri, row] : rows()) {
+            if (row_uri.starts_with(uri + "#t=")) found.push_back({row.known, row_uri});
+        }
+        const std::lock_guard lock(mutex_);
+        if (++key_frame_lookups_ == failing_key_frame_lookup)
+            return failure("lookup of key frames");
+        return found;
     }
     void wait_for_lookups(int count) {
         std::unique_lock lock(mutex_);
@@ -148,6 +159,7 @@ class MemoryCatalogue final : public Catalogue {
     Rows rows_;
     std::int64_t last_id_ = 0;
     int lookups_ = 0;
+    int key_frame_lookups_ = 0;
     int transactions_ = 0;
     int operations_ = 0;
 };

@@ -72,6 +72,26 @@ TEST(Walk, FindsPicturesByExtensionInAnyCaseAndByMagic) {
     EXPECT_THAT(walked.summary.reached, ElementsAre(folder.path()));
 }
 
+TEST(Walk, FindsFilmsWhenAskedToAndNoSoundInTheirContainers) {
+    const ScratchFolder folder;
+    const std::string matroska = "\x1a\x45\xdf\xa3";
+    folder.write("a.MP4", "");
+    folder.write("b", matroska);
+    folder.write("c.mka", matroska);
+    folder.write("d.opus", "OggS");
+    folder.write("e.ts", "const source = 'text';");
+    folder.write("f.png", "");
+    const auto films_too = [](bool films) {
+        WalkOptions options;
+        options.films = films;
+        return options;
+    };
+    EXPECT_THAT(walk_all({folder.path()}, films_too(false)).files,
+                ElementsAre(folder / "f.png"));
+    EXPECT_THAT(walk_all({folder.path()}, films_too(true)).files,
+                ElementsAre(folder / "a.MP4", folder / "b", folder / "f.png"));
+}
+
 TEST(Walk, OrderIsFilesByNameThenFoldersByName) {
     const ScratchFolder folder;
     for (const char* name :

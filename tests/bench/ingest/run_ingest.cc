@@ -53,7 +53,8 @@ IngestRun run_ingest(const std::string& folder) {
     const ingest::Report report = ingest::run(
         options,
         **catalogue,
-        ingest::picture_steps({ingest::kMainKind.begin(), ingest::kMainKind.end()}),
+        ingest::picture_steps({ingest::kMainKind.begin(), ingest::kMainKind.end()},
+                              ingest::kMostKeyFrames),
         silent,
         stop);
     if (!report.outcome) give_up(report.outcome.error().message);

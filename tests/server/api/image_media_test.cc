@@ -6,6 +6,7 @@
 
 #include "ingest/decode.h"
 #include "ingest/file_uri.h"
+#include "ingest/media_fragment.h"
 #include "tests/schema/scratch_folder.h"
 #include "tests/server/api/interface.h"
 
@@ -77,6 +78,28 @@ TEST_F(ImageMediaTest, AnOriginalIsTheFile) {
     const http::Response part = interface_.get(address, {{"Range", "bytes=-7"}});
     EXPECT_EQ(part.status, 206);
     EXPECT_EQ(file_bytes(part), text_of(jpeg_scene(1)).substr(jpeg_scene(1).size() - 7));
+}
+
+TEST_F(ImageMediaTest, TheOriginalOfAFrameOfAFilmIsTheFilm) {
+    const std::string path = folder_.file("root/film.mkv");
+    const std::string film = "\x1a\x45\xdf\xa3 the rest of a film";
+    schema::write_bytes(path, film);
+    schema::NewImage row =
+        file_row(1, ingest::key_frame_uri(ingest::file_uri(path), 40'000));
+    row.media_type = "video/x-matroska";
+    const auto id = other_->images().add(row);
+    ASSERT_TRUE(id);
+    const std::string address =
+        "/images/" + std::to_string(to_int(id.value())) + "/original";
+    const http::Response response = interface_.get(address);
+    ASSERT_EQ(response.status, 200) << body_of(response);
+    EXPECT_EQ(header_of(response, "Content-Type"), "video/x-matroska");
+    EXPECT_EQ(file_bytes(response), film);
+    for (const std::string& other :
+         {std::string("a secret text"), text_of(jpeg_scene(1))}) {
+        schema::write_bytes(path, other);
+        EXPECT_EQ(refusal_of(interface_.get(address)), (Refusal{404, "not_found", ""}));
+    }
 }
 
 TEST_F(ImageMediaTest, AFileOutsideIsForbiddenHoweverItIsReached) {

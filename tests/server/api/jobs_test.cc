@@ -86,6 +86,33 @@ TEST_F(JobsTest, IngestTakesInAFolderAndNamesWhatFailedByItsAddress) {
     EXPECT_EQ(run(request)["counts"]["skipped"], 3);
 }
 
+TEST_F(JobsTest, IngestTakesInTheKeyFramesOfFilmsWhenAskedTo) {
+    // Every frame of these is a key frame.
+    std::string film = "YUV4MPEG2 W16 H16 F5:1 C444\n";
+    for (int frame = 0; frame < 6; ++frame)
+        film += "FRAME\n" + std::string(3 * 16 * 16, static_cast<char>(40 * frame));
+    schema::write_bytes(media_.file("film.y4m"), film);
+    json request{{"type", "ingest"}, {"paths", {media_.path()}}};
+    EXPECT_EQ(run(request)["counts"]["seen"], 0);
+    request["videos"] = true;
+    const json job = run(request);
+    EXPECT_EQ(
+        job["counts"],
+        (json{{"seen", 1}, {"added", 6}, {"updated", 0}, {"skipped", 0}, {"failed", 0}}));
+    EXPECT_TRUE(becomes_true(
+        [&] { return json_of(interface_.get("/status"))["searchable"] == 6; }));
+    const json frame = json_of(interface_.get("/images/4"));
+    const std::string uri = ingest::file_uri(media_.file("film.y4m"));
+    EXPECT_EQ(frame["uri"], uri + "#t=0.600");
+    EXPECT_EQ(frame["metadata"], (json{{"video", uri}, {"time", 0.6}, {"frame", 3}}));
+    const json matches = json_of(interface_.get("/query?id=4"))["matches"];
+    EXPECT_EQ(matches[0]["id"], 4);
+    EXPECT_EQ(matches[0]["metadata"]["time"], 0.6);
+    schema::write_bytes(media_.file("again.y4m"), film);
+    request["max_key_frames"] = 3;
+    EXPECT_EQ(run(request)["counts"]["added"], 3);
+}
+
 TEST_F(JobsTest, IngestReadsNothingOutsideTheMediaRoots) {
     const schema::ScratchFolder elsewhere;
     const auto refusal = [&](const json& paths) {
@@ -107,7 +134,13 @@ TEST_F(JobsTest, AFolderThatIsGoneWhenItsTurnComesFailsTheJob) {
     const schema::Job ended = finished(*interface_.jobs, job->id);
     EXPECT_EQ(ended.state, schema::JobState::kFailed);
     EXPECT_EQ(ended.errors.size(), 1);
-    for (const char* request : {"{}", R"({"paths":"x"})", R"({"paths":[1]})"})
+    const std::string here = R"({"paths":[")" + media_.path() + R"("],)";
+    for (const std::string& request : {std::string("{}"),
+                                       std::string(R"({"paths":"x"})"),
+                                       std::string(R"({"paths":[1]})"),
+                                       here + R"("videos":1})",
+                                       here + R"("max_key_frames":0})",
+                                       here + R"("max_key_frames":"many"})"})
         EXPECT_EQ(done(*interface_.jobs, "ingest", request).state,
                   schema::JobState::kFailed)
             << request;
@@ -136,6 +169,10 @@ TEST_F(JobsTest, WhatCanNeverSucceedIsRefusedAtOnce) {
         {{{"type", 1}}, {400, "invalid_argument", "type"}},
         {{{"type", "snapshot"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "ingest"}}, {400, "invalid_argument", "paths"}},
+        {{{"type", "ingest"}, {"paths", {media_.path()}}, {"videos", 1}},
+         {400, "invalid_argument", "videos"}},
+        {{{"type", "ingest"}, {"paths", {media_.path()}}, {"max_key_frames", 0}},
+         {400, "invalid_argument", "max_key_frames"}},
         {{{"type", "reindex"}, {"paths", {"/"}}}, {400, "unknown_parameter", "paths"}},
         {{{"type", "reindex"}, {"profile", "x"}}, {400, "unknown_profile", "profile"}},
         {{{"type", "reindex"}, {"color_space", "x"}},

@@ -10,6 +10,7 @@
 
 #include "ingest/describe.h"
 #include "ingest/file_uri.h"
+#include "ingest/media_fragment.h"
 #include "ingest/stored_profile.h"
 #include "ingest/thumbnail.h"
 #include "tests/server/app/collection.h"
@@ -105,6 +106,19 @@ TEST_F(ReindexTest, GivesEveryPictureTheKindsInUseAndASecondRunFindsNothingToDo)
     const Bytes thumbnail = other_->images().thumbnail(upload).value().bytes;
     EXPECT_EQ(variant(upload, "lab-standard"), fresh(thumbnail, kLab));
     EXPECT_EQ(reindex("{}").counts, (JobCounts{4, 0, 0, 4, 0}));
+}
+
+TEST_F(ReindexTest, AFrameOfAFilmHasNothingButItsThumbnail) {
+    schema::write_bytes(path(1), text_of(jpeg_scene(1)));
+    schema::NewImage row =
+        file_row(2, ingest::key_frame_uri(ingest::file_uri(path(1)), 1'000'000));
+    const ImageId id = other_->images().add(row).value();
+    const auto main = other_->images().signature(id);
+    use_kind("lab", kLab);
+    EXPECT_EQ(reindex(R"({"all":true})").counts, (JobCounts{1, 0, 1, 0, 0}));
+    const Bytes thumbnail = other_->images().thumbnail(id).value().bytes;
+    EXPECT_EQ(variant(id, "lab-standard"), fresh(thumbnail, kLab));
+    EXPECT_EQ(*other_->images().signature(id), *main);
 }
 
 TEST_F(ReindexTest, ARunningServiceFindsThePicturesUnderTheirNewKind) {
