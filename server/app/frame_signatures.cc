@@ -26,21 +26,6 @@ Result<video::Picture> picture_of(const video::TimeTree& clip,
     return video::draw(*frame, level, video::Edge::kNormalize);
 }
 
-Result<std::vector<std::int64_t>> find_shots(const video::TimeTree& clip,
-                                             const std::function<bool()>& go_on) {
-    const int leaves = clip.shape().time_levels();
-    std::vector<double> differences;
-    video::Picture before;
-    for (std::int64_t frame = 0; frame < clip.shape().frames(); ++frame) {
-        if (!go_on()) return Error{ErrorCode::kUnavailable, "the search was stopped"};
-        auto picture = picture_of(clip, {leaves, frame});
-        if (!picture) return picture.error();
-        if (frame > 0) differences.push_back(mean_difference(before, *picture));
-        before = *std::move(picture);
-    }
-    return shots_of(differences);
-}
-
 }  // namespace
 
 double mean_difference(const video::Picture& a, const video::Picture& b) {
@@ -70,6 +55,21 @@ std::vector<std::int64_t> shots_of(const std::vector<double>& differences) {
             sum -= differences[i - static_cast<std::size_t>(--remembered)];
     }
     return shots;
+}
+
+Result<std::vector<std::int64_t>> find_shots(const video::TimeTree& clip,
+                                             const std::function<bool()>& go_on) {
+    const int leaves = clip.shape().time_levels();
+    std::vector<double> differences;
+    video::Picture before;
+    for (std::int64_t frame = 0; frame < clip.shape().frames(); ++frame) {
+        if (!go_on()) return Error{ErrorCode::kUnavailable, "the search was stopped"};
+        auto picture = picture_of(clip, {leaves, frame});
+        if (!picture) return picture.error();
+        if (frame > 0) differences.push_back(mean_difference(before, *picture));
+        before = *std::move(picture);
+    }
+    return shots_of(differences);
 }
 
 Result<std::vector<schema::FrameSignature>> frame_signatures(

@@ -40,6 +40,11 @@ inline constexpr int kShotMemory = 8;  // how many differences are the last ones
 // Which shot each frame belongs to, from 0. differences[i] is that of frame i + 1 from frame i.
 [[nodiscard]] std::vector<std::int64_t> shots_of(const std::vector<double>& differences);
 
+// Which shot each frame of a clip belongs to.
+[[nodiscard]] Result<std::vector<std::int64_t>> find_shots(
+    const video::TimeTree& clip,
+    const std::function<bool()>& go_on);
+
 // Without those of the halves of time nodes that are complete in the first `kept_frames`:
 // appended frames change nothing of these. Shots of old frames stay what they were, too.
 [[nodiscard]] Result<std::vector<schema::FrameSignature>> frame_signatures(

@@ -1,5 +1,6 @@
 // haarmony-eval: measures how well and how fast the search works on one's own pictures, draws
-// the figures of the curves, and measures multiresolution video on one's own clips.
+// the figures of the curves, and measures multiresolution video, and searches inside of it, on
+// one's own clips.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "tests/eval/copies.h"
 #include "tests/eval/curves.h"
 #include "tests/eval/figures.h"
+#include "tests/eval/frame_retrieval.h"
 #include "tests/eval/replay.h"
 #include "tests/eval/speed_report.h"
 #include "tests/eval/train_profile.h"
@@ -95,6 +97,21 @@ int run_video(const VideoCommand& command) {
     const int status = write_and_list(video_files(*report), command.out);
     if (status != 0) return status;
     return report->broken_bounds() == 0 ? 0 : 1;
+}
+
+struct FramesCommand {
+    std::string out;
+    haarmony::eval::FrameRetrievalOptions options;
+};
+
+int run_frames(const FramesCommand& command) {
+    const auto measured = haarmony::eval::measure_frames(
+        command.options, [](const std::string& line) { std::cerr << line << '\n'; });
+    if (!measured) return failed(measured.error());
+    std::cout << to_text(*measured);
+    return command.out.empty()
+               ? 0
+               : write_and_list(frame_retrieval_files(*measured), command.out);
 }
 
 }  // namespace
@@ -226,6 +243,25 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1'000))
         ->capture_default_str();
 
+    FramesCommand frames_command;
+    CLI::App* frames = app.add_subcommand(
+        "frames", "how often poor copies of frames find their own shot and clip first");
+    frames->add_option("--clips", frames_command.options.clips, "folder of clips")
+        ->required();
+    frames->add_option("--out", frames_command.out, "folder for the table");
+    frames
+        ->add_option(
+            "--queries", frames_command.options.queries, "frames to query for, of all")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    frames
+        ->add_option(
+            "--frames", frames_command.options.frames, "of each clip, the first ones")
+        ->check(CLI::Range(1, 1 << 16))
+        ->capture_default_str();
+    frames->add_option("--seed", frames_command.options.seed, "of everything random")
+        ->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -236,6 +272,7 @@ int main(int argc, char** argv) {
     if (curves->parsed())
         return write_and_list(haarmony::eval::make_curve_figures(), curves_out);
     if (video->parsed()) return run_video(video_command);
+    if (frames->parsed()) return run_frames(frames_command);
     if (speed->parsed()) return run_speed(std::move(speed_command));
     if (replay->parsed()) {
         const auto replayed = haarmony::eval::replay_database(replay_options, std::cout);

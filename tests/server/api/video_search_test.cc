@@ -1,6 +1,7 @@
 // Searches inside videos: /query with kind=frame and kind=all.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 #include <string>
@@ -90,6 +91,47 @@ TEST_F(VideoSearchTest, AFrameFindsItselfAndEveryShotIsToldOnce) {
     EXPECT_EQ(matches("kind=frame&limit=2", frame_of(5, 0)).size(), 2u);
     EXPECT_EQ(json_of(interface_.get("/videos/1"))["indexed"], true);
     EXPECT_EQ(json_of(interface_.get("/videos/3"))["indexed"], false);
+}
+
+// Half as fine, darker and noisy.
+video::Picture poor(const video::Picture& picture, unsigned seed) {
+    std::mt19937 random(seed);
+    video::Picture result(picture.width / 2, picture.height / 2);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) {
+            const auto channel = [&](std::uint8_t video::Rgba::*of) {
+                int sum = 0;
+                for (int i = 0; i < 4; ++i)
+                    sum += picture.at(2 * x + i % 2, 2 * y + i / 2).*of;
+                const int noise = static_cast<int>(random() % 21) - 10;
+                return static_cast<std::uint8_t>(std::clamp(sum / 5 + noise, 0, 255));
+            };
+            result.at(x, y) = {channel(&video::Rgba::r),
+                               channel(&video::Rgba::g),
+                               channel(&video::Rgba::b),
+                               255};
+        }
+    return result;
+}
+
+TEST_F(VideoSearchTest, EveryFrameOfAFilmFindsItsOwnShotThoughItIsPoor) {
+    const std::vector<unsigned> scenes{11, 12, 13, 14, 15, 16, 17};
+    upload(scenes, "&index=true");
+    upload({18, 19, 20}, "&index=true");
+    for (int shot = 0; shot < static_cast<int>(scenes.size()); ++shot) {
+        for (int moved = 0; moved < kShotFrames; ++moved) {
+            const int frame = kShotFrames * shot + moved;
+            const json found =
+                matches("kind=frame&limit=1",
+                        poor(frame_of(scenes[static_cast<std::size_t>(shot)], moved),
+                             99u + frame));
+            ASSERT_EQ(found.size(), 1u);
+            EXPECT_EQ(found[0]["frame"]["video"], 1) << frame;
+            // Half a second a frame: the shot is known by the time, whatever the level.
+            const double time = found[0]["frame"]["time"];
+            EXPECT_EQ(static_cast<int>(2 * time) / kShotFrames, shot) << frame;
+        }
+    }
 }
 
 TEST_F(VideoSearchTest, FollowsWhatIsAddedAndRemoved) {
