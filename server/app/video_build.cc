@@ -98,14 +98,42 @@ Result<bool> made_before(JobContext& job, VideoService& videos, bool is_new) {
     return before->has_value();
 }
 
-video::BuildObserver progress_of(JobContext& job) {
-    return [&job](std::int64_t frames, std::int64_t nodes) {
-        job.counts().seen = frames;
-        job.counts().updated = nodes;
-        job.progress();
-        return !job.cancelled();
-    };
+// Nothing while there is room on the disk, else what to say.
+std::optional<Error> no_room(const VideoService& videos, std::int64_t frames) {
+    const auto free = videos.files().free_bytes();
+    if (!free) return free.error();
+    if (*free >= videos.room_left()) return std::nullopt;
+    return Error{ErrorCode::kTooLarge,
+                 "the disk has " + std::to_string(*free >> 20U) +
+                     " MB left after frame " + std::to_string(frames) + ", and " +
+                     std::to_string(videos.room_left() >> 20U) +
+                     " MB are to stay free: make it with max_frames, smaller, or with a "
+                     "larger delta"};
 }
+
+// Tells how far a build has come, and ends it when the job is stopped or the disk is full.
+class BuildWatch {
+  public:
+    BuildWatch(JobContext& job, const VideoService& videos)
+        : job_(job), videos_(videos) {}
+
+    [[nodiscard]] video::BuildObserver observer() {
+        return [this](std::int64_t frames, std::int64_t nodes) {
+            job_.counts().seen = frames;
+            job_.counts().updated = nodes;
+            job_.progress();
+            full_ = no_room(videos_, frames);
+            return !full_ && !job_.cancelled();
+        };
+    }
+    // Why it was ended where the disk is full.
+    [[nodiscard]] const std::optional<Error>& full() const { return full_; }
+
+  private:
+    JobContext& job_;
+    const VideoService& videos_;
+    std::optional<Error> full_;
+};
 
 Result<std::vector<schema::FrameSignature>> signatures_of(JobContext& job,
                                                           const video::TimeTree& clip,
@@ -143,9 +171,10 @@ class CountingSink final : public video::ClipSink {
 
 // Written, and on the disk: what it takes when all of it is decoded.
 Result<std::uint64_t> write_clip(JobContext& job,
-                                 const VideoFiles& files,
+                                 VideoService& videos,
                                  video::FrameSource& source,
                                  const VideoWishes& wishes) {
+    const VideoFiles& files = videos.files();
     auto averages = FileSpool::nameless(files.folder());
     if (!averages) return averages.error();
     auto waiting = FileSpool::nameless(files.folder());
@@ -156,9 +185,11 @@ Result<std::uint64_t> write_clip(JobContext& job,
     video::BuildOptions options;
     options.delta = delta_units(wishes.delta);
     options.max_frames = wishes.max_frames;
-    options.progress = progress_of(job);
+    BuildWatch watch(job, videos);
+    options.progress = watch.observer();
     CountingSink counted(writer);
     const auto shape = video::build(source, *averages, counted, options);
+    if (watch.full()) return *watch.full();
     if (!shape) return shape.error();
     if (const auto synced = file->sync(); !synced) return synced.error();
     return counted.bytes();
@@ -166,11 +197,12 @@ Result<std::uint64_t> write_clip(JobContext& job,
 
 // A copy of the clip with the frames behind its own, on the disk.
 Result<void> write_grown(JobContext& job,
-                         const VideoFiles& files,
+                         VideoService& videos,
                          const schema::Video& before,
                          const std::string& path,
                          video::FrameSource& source,
                          std::int64_t most) {
+    const VideoFiles& files = videos.files();
     const std::string published = files.clip_path(before.id, before.revision);
     const auto file = MappedFile::open(published);
     // A client is not told where it was.
@@ -190,8 +222,10 @@ Result<void> write_grown(JobContext& job,
     video::MrvWriter writer((*clip)->front(), *waiting, *grown);
     video::AppendOptions options;
     options.max_frames = most;
-    options.progress = progress_of(job);
+    BuildWatch watch(job, videos);
+    options.progress = watch.observer();
     const auto shape = video::append(**clip, source, *averages, writer, options);
+    if (watch.full()) return *watch.full();
     if (!shape) return shape.error();
     return {};
 }
@@ -278,7 +312,7 @@ Result<void> build_video(JobContext& job,
     if (*before) return {};
     if (frames) job.set_total(*frames);
     const std::string path = videos.files().building_path(job.job().id);
-    const auto memory_bytes = write_clip(job, videos.files(), source, wishes);
+    const auto memory_bytes = write_clip(job, videos, source, wishes);
     const Result<void> done = memory_bytes
                                   ? keep(job, videos, path, wishes, *memory_bytes)
                                   : Result<void>(memory_bytes.error());
@@ -304,7 +338,7 @@ Result<void> append_to_video(JobContext& job,
         job.set_total(video->frames + more);
     }
     const std::string path = videos.files().building_path(job.job().id);
-    Result<void> done = write_grown(job, videos.files(), *video, path, source, most);
+    Result<void> done = write_grown(job, videos, *video, path, source, most);
     if (done) {
         const auto grown = keep_grown(job, videos, *video, path);
         if (grown) tell(job, *grown, false);

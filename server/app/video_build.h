@@ -6,8 +6,9 @@
 // Counts   seen: frames read, those of a video that grows among them; updated: time nodes
 //          written; added: 1 at the end of a new video.
 // Result   video: its id.
-// Errors   those of the source and of the build. A job that was interrupted ends without an
-//          error and without a video.
+// Errors   those of the source and of the build; kTooLarge before the disk is full: a clip
+//          waits there without loss while it is built, and the database needs room, too. A
+//          job that was interrupted ends without an error and without a video.
 // Threads  the job's.
 #pragma once
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -94,6 +95,12 @@ void VideoFiles::remove_input(std::string_view input) const {
 
 void VideoFiles::remove_clip(const schema::Video& video) const {
     remove_file(clip_path(video.id, video.revision));
+}
+
+Result<std::uint64_t> VideoFiles::free_bytes() const {
+    struct statvfs disk {};
+    if (::statvfs(folder_.c_str(), &disk) != 0) return system_error(folder_, "looked at");
+    return std::uint64_t{disk.f_bavail} * disk.f_frsize;
 }
 
 Result<void> VideoFiles::publish(const std::string& built,

@@ -33,6 +33,8 @@ class VideoFiles {
     [[nodiscard]] std::string building_path(std::int64_t job) const;
     [[nodiscard]] std::string input_path(std::string_view input) const;
     [[nodiscard]] const std::string& folder() const { return folder_; }
+    // How much may still be written to the folder's disk.
+    [[nodiscard]] Result<std::uint64_t> free_bytes() const;
 
     // Writes the bytes, flushed to the disk, and tells the name to ask input_path() with.
     // The name is not used again while the file is there.

@@ -41,6 +41,9 @@ struct VideoServiceOptions {
     std::size_t layer_cache_bytes = std::size_t{512} << 20;
     std::size_t open_clips = 32;  // at the same time, each with the index of its file
     std::size_t reply_cache_bytes = std::size_t{64} << 20;  // of encoded pictures
+    // Of the disk: what a build leaves to the database. A minute in full HD may need 40 GB
+    // while it is built.
+    std::uint64_t room_left = std::uint64_t{512} << 20;
 };
 
 // A video that is looked at.
@@ -89,6 +92,7 @@ class VideoService {
     [[nodiscard]] Result<std::optional<schema::Video>> made_by(std::int64_t job);
 
     [[nodiscard]] VideoFiles& files() { return files_; }
+    [[nodiscard]] std::uint64_t room_left() const { return options_.room_left; }
     [[nodiscard]] ReplyCache& replies() { return replies_; }
     // Of decoded layers that are kept.
     [[nodiscard]] std::size_t layer_bytes() const;
