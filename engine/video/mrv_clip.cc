@@ -56,15 +56,18 @@ class Generation {
         return std::static_pointer_cast<const Layer>(*std::move(value));
     }
 
-    // Decodes the siblings and all below them. What is above is held by the callers, so that
-    // nothing is decoded twice, however small the cache.
-    Result<void> verify(std::size_t ordinal) const {
+    // Decodes the siblings and all below them, and says how much memory that took. What is
+    // above is held by the callers, so that nothing is decoded twice, however small the cache.
+    Result<std::uint64_t> decode(std::size_t ordinal) const {
         Result<Frame::Nodes> own_nodes = nodes(ordinal);
         if (!own_nodes) return std::move(own_nodes).error();
+        std::uint64_t bytes =
+            sizeof(TimeNode) * static_cast<std::uint64_t>((*own_nodes)->count);
         std::vector<Frame::LayerPtr> held;
         for (int row = 1; row < index_.rows(); ++row) {
             Result<Frame::LayerPtr> found = layer(ordinal, row);
             if (!found) return std::move(found).error();
+            bytes += (*found)->memory_bytes();
             held.push_back(*std::move(found));
         }
         const SiblingAddress& address = index_.address(ordinal);
@@ -73,9 +76,11 @@ class Generation {
                 address.time_level == 0 ? 0 : 2 * address.index + half;
             const auto below = find({address.time_level + 1, index});
             if (!below) continue;
-            if (Result<void> checked = verify(*below); !checked) return checked;
+            const Result<std::uint64_t> decoded = decode(*below);
+            if (!decoded) return decoded.error();
+            bytes += *decoded;
         }
-        return {};
+        return bytes;
     }
 
   private:
@@ -246,11 +251,14 @@ class MrvClip::Impl {
     [[nodiscard]] const DecodedCache& cache() const { return *cache_; }
     [[nodiscard]] std::uint64_t decoded() const { return decoded_; }
 
-    [[nodiscard]] Result<void> verify() const {
+    [[nodiscard]] Result<std::uint64_t> decode() const {
+        std::uint64_t bytes = 0;
         for (const Generation& generation : generations_) {
-            if (Result<void> checked = generation.verify(0); !checked) return checked;
+            const Result<std::uint64_t> decoded = generation.decode(0);
+            if (!decoded) return decoded.error();
+            bytes += *decoded;
         }
-        return {};
+        return bytes;
     }
 
   private:
@@ -327,6 +335,12 @@ const MrvFront& MrvClip::front() const { return impl_->front(); }
 std::uint64_t MrvClip::revision() const { return impl_->front().revision; }
 std::size_t MrvClip::cached_bytes() const { return impl_->cache().bytes(); }
 std::uint64_t MrvClip::decoded_chunks() const { return impl_->decoded(); }
-Result<void> MrvClip::verify() const { return impl_->verify(); }
+Result<std::uint64_t> MrvClip::memory_bytes() const { return impl_->decode(); }
+
+Result<void> MrvClip::verify() const {
+    const Result<std::uint64_t> decoded = impl_->decode();
+    if (!decoded) return decoded.error();
+    return {};
+}
 
 }  // namespace haarmony::video

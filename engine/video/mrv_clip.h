@@ -57,6 +57,9 @@ class MrvClip final : public TimeTree {
     [[nodiscard]] std::size_t cached_bytes() const;
     // How many chunks of this clip were decoded since open().
     [[nodiscard]] std::uint64_t decoded_chunks() const;
+    // What all of the file takes when it is decoded, time-ancestors of older generations
+    // included. Decodes it.
+    [[nodiscard]] Result<std::uint64_t> memory_bytes() const;
     // Every chunk read and checked: what a clip from elsewhere must pass before it is kept.
     [[nodiscard]] Result<void> verify() const;
 

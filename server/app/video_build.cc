@@ -24,31 +24,6 @@ namespace {
 // Of decoded layers, while a clip is counted: the walk comes back to the time-ancestors.
 constexpr std::size_t kCountingCache = std::size_t{128} << 20;
 
-// What the whole clip takes when all of it is decoded.
-Result<std::uint64_t> memory_of(const video::TimeTree& clip) {
-    const int finest = std::max(clip.shape().space_levels(), video::kBrickLevel);
-    std::uint64_t bytes = 0;
-    std::vector<video::SiblingAddress> waiting{{0, 0}};
-    while (!waiting.empty()) {
-        const video::SiblingAddress at = waiting.back();
-        waiting.pop_back();
-        if (!clip.stored(at)) continue;
-        const auto nodes = clip.nodes(at);
-        if (!nodes) return nodes.error();
-        bytes += sizeof(video::TimeNode) * static_cast<std::size_t>((*nodes)->count);
-        for (int level = video::kBrickLevel; level <= finest; ++level) {
-            const auto layer = clip.layer(at, level);
-            if (!layer) return layer.error();
-            bytes += (*layer)->memory_bytes();
-        }
-        if (at.time_level == clip.shape().time_levels()) continue;
-        const std::int64_t first = at.time_level == 0 ? 0 : 2 * at.index;
-        for (int i = (*nodes)->count - 1; i >= 0; --i)
-            waiting.push_back({at.time_level + 1, first + i});
-    }
-    return bytes;
-}
-
 std::string hexadecimal(std::uint64_t revision) {
     char text[17];
     std::snprintf(
@@ -238,7 +213,7 @@ Result<schema::Video> keep_grown(JobContext& job,
     if (!file) return file.error();
     const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
     if (!clip) return clip.error();
-    const auto memory = memory_of(**clip);
+    const auto memory = (*clip)->memory_bytes();
     if (!memory) return memory.error();
     auto row = describe(**clip, *memory, (*file)->bytes().size(), {});
     if (!row) return row.error();
@@ -270,7 +245,7 @@ Result<void> keep(JobContext& job,
     const auto clip = video::MrvClip::open((*file)->bytes(), kCountingCache);
     if (!clip) return clip.error();
     if (!memory_bytes) {
-        const auto walked = memory_of(**clip);
+        const auto walked = (*clip)->memory_bytes();
         if (!walked) return walked.error();
         memory_bytes = *walked;
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/video/append.h"
+#include "engine/video/build.h"
 #include "engine/video/mrv_format.h"
 #include "engine/video/mrv_writer.h"
 #include "tests/engine/video/appended_clip.h"
@@ -108,6 +109,30 @@ TEST(MrvAppend, AReaderOfTheOldClipKeepsIt) {
     EXPECT_EQ(reader->shape().frames(), 6);
     EXPECT_EQ(reader->revision(), revision);
     EXPECT_NE(opened(file.bytes())->revision(), revision);
+}
+
+TEST(MrvAppend, MemoryIsThatOfAllGenerations) {
+    const RawClip raw = random_clip(20, 12, 7, 21);
+    GrowingBytes file(built_bytes(part(raw, 0, 5)));
+    const std::vector<std::byte> before = file.bytes();
+    ASSERT_TRUE(append_to(file, part(raw, 5, 7)).has_value());
+    const std::unique_ptr<MrvClip> old = opened(before);
+    const std::unique_ptr<MrvClip> grown = opened(file.bytes());
+    // The newest generation's siblings are found at their own addresses.
+    std::uint64_t bytes = *old->memory_bytes();
+    const MrvIndex& index = grown->front().index;
+    for (std::size_t i = 0; i < index.siblings(); ++i) {
+        const SiblingAddress& at = index.address(i);
+        bytes += sizeof(TimeNode) * static_cast<std::size_t>((*grown->nodes(at))->count);
+        for (int level = kBrickLevel; level <= 5; ++level)
+            bytes += (*grown->layer(at, level))->memory_bytes();
+    }
+    EXPECT_EQ(*grown->memory_bytes(), bytes);
+    MemorySpool spool;
+    MemoryClip::Sink sink;
+    RawSource source(raw);
+    ASSERT_TRUE(build(source, spool, sink).has_value());
+    EXPECT_EQ(*opened(built_bytes(raw))->memory_bytes(), sink.take()->memory_bytes());
 }
 
 TEST(MrvAppend, EveryTruncationOfAGrownFileIsNoticed) {
