@@ -8,8 +8,8 @@ void Bricks::push_back(const Brick& brick) {
     const std::size_t i = colors_.size();
     if (!pack(brick, colors, alphas)) {
         const auto before = static_cast<std::uint32_t>(alphas_.size());
-        clear_.resize(i / 32 + 1, {0, before});
-        clear_.back().bits |= std::uint32_t{1} << i % 32;
+        with_alpha_.resize(i / 32 + 1, {0, before});
+        with_alpha_.back().bits |= std::uint32_t{1} << i % 32;
         alphas_.push_back(alphas);
     }
     colors_.push_back(colors);
@@ -18,13 +18,13 @@ void Bricks::push_back(const Brick& brick) {
 void Bricks::shrink_to_fit() {
     colors_.shrink_to_fit();
     alphas_.shrink_to_fit();
-    clear_.shrink_to_fit();
+    with_alpha_.shrink_to_fit();
 }
 
 void Bricks::clear() {
     colors_.clear();
     alphas_.clear();
-    clear_.clear();
+    with_alpha_.clear();
 }
 
 }  // namespace haarmony::video

@@ -48,31 +48,32 @@ class Bricks {
 
     [[nodiscard]] std::size_t memory_bytes() const {
         return colors_.size() * sizeof(BrickColors) +
-               alphas_.size() * sizeof(BrickAlphas) + clear_.size() * sizeof(Some);
+               alphas_.size() * sizeof(BrickAlphas) +
+               with_alpha_.size() * sizeof(RankedBits);
     }
     friend bool operator==(const Bricks&, const Bricks&) = default;
 
   private:
     // Which of 32 bricks have alphas, and how many before them.
-    struct Some {
+    struct RankedBits {
         std::uint32_t bits = 0;
         std::uint32_t before = 0;
 
-        friend bool operator==(const Some&, const Some&) = default;
+        friend bool operator==(const RankedBits&, const RankedBits&) = default;
     };
 
     [[nodiscard]] const BrickAlphas* alphas_of(std::size_t i) const {
-        if (i / 32 >= clear_.size()) return nullptr;
-        const Some some = clear_[i / 32];
-        const std::uint32_t rest = some.bits >> i % 32;
+        if (i / 32 >= with_alpha_.size()) return nullptr;
+        const RankedBits ranked = with_alpha_[i / 32];
+        const std::uint32_t rest = ranked.bits >> i % 32;
         if ((rest & 1) == 0) return nullptr;
         const int from_here = std::popcount(rest);
-        return &alphas_[some.before + std::popcount(some.bits) - from_here];
+        return &alphas_[ranked.before + std::popcount(ranked.bits) - from_here];
     }
 
     std::vector<BrickColors> colors_;
     std::vector<BrickAlphas> alphas_;
-    std::vector<Some> clear_;
+    std::vector<RankedBits> with_alpha_;
 };
 
 }  // namespace haarmony::video
