@@ -74,7 +74,7 @@ Result<bool> made_before(JobContext& job, VideoService& videos, bool is_new) {
 }
 
 // Nothing while there is room on the disk, else what to say.
-std::optional<Error> no_room(const VideoService& videos, std::int64_t frames) {
+std::optional<Error> no_room(VideoService& videos, std::int64_t frames) {
     const auto free = videos.files().free_bytes();
     if (!free) return free.error();
     if (*free >= videos.room_left()) return std::nullopt;
@@ -89,8 +89,7 @@ std::optional<Error> no_room(const VideoService& videos, std::int64_t frames) {
 // Tells how far a build has come, and ends it when the job is stopped or the disk is full.
 class BuildWatch {
   public:
-    BuildWatch(JobContext& job, const VideoService& videos)
-        : job_(job), videos_(videos) {}
+    BuildWatch(JobContext& job, VideoService& videos) : job_(job), videos_(videos) {}
 
     [[nodiscard]] video::BuildObserver observer() {
         return [this](std::int64_t frames, std::int64_t nodes) {
@@ -106,7 +105,7 @@ class BuildWatch {
 
   private:
     JobContext& job_;
-    const VideoService& videos_;
+    VideoService& videos_;
     std::optional<Error> full_;
 };
 
