@@ -101,6 +101,50 @@ Rgba placed(Rgba& picture, const Placement& placement) {
     return canvas;
 }
 
+// How a picture of kSamples x kSamples lies off: moved by samples, then scaled by
+// numerator / denominator about its middle.
+struct Offset {
+    int right = 0;
+    int down = 0;
+    int numerator = 1;
+    int denominator = 1;
+};
+
+constexpr int kMove = 4;  // samples: one fiftieth
+
+constexpr std::array<Offset, 10> kOffsets = {{{-kMove, -kMove, 1, 1},
+                                              {0, -kMove, 1, 1},
+                                              {kMove, -kMove, 1, 1},
+                                              {-kMove, 0, 1, 1},
+                                              {kMove, 0, 1, 1},
+                                              {-kMove, kMove, 1, 1},
+                                              {0, kMove, 1, 1},
+                                              {kMove, kMove, 1, 1},
+                                              {0, 0, 19, 20},
+                                              {0, 0, 21, 20}}};
+
+// The sample that is shown at `place` along one axis: the nearest one there is.
+int shown_at(int place, int move, const Offset& offset) {
+    // Twice the distance of its middle from that of the picture.
+    const int twice = (2 * place + 1 - kSamples) * offset.denominator;
+    const int from = (twice + kSamples * offset.numerator) / (2 * offset.numerator);
+    return std::clamp(from - move, 0, kSamples - 1);
+}
+
+Rgba moved(Rgba& picture, const Offset& offset) {
+    Rgba canvas{kSamples,
+                std::vector<std::uint8_t>(std::size_t{4} * kSamples * kSamples)};
+    for (int y = 0; y < kSamples; ++y) {
+        const int from_y = shown_at(y, offset.down, offset);
+        for (int x = 0; x < kSamples; ++x) {
+            std::copy_n(picture.at(shown_at(x, offset.right, offset), from_y),
+                        4,
+                        canvas.at(x, y));
+        }
+    }
+    return canvas;
+}
+
 // Rounded to the nearest. A bound that only weights of nearly 0 everywhere can reach.
 std::int32_t scaled(std::int32_t weight, std::int64_t to, std::int64_t from) {
     return static_cast<std::int32_t>(
@@ -124,6 +168,16 @@ std::vector<WindowSignature> window_signatures(const ImageView& picture,
         }
     }
     return windows;
+}
+
+std::vector<Signature> moved_signatures(const ImageView& picture,
+                                        const SignatureKind& kind) {
+    std::vector<Signature> signatures;
+    Rgba small = sampled(picture);
+    for (const Offset& offset : kOffsets) {
+        signatures.push_back(make_signature(moved(small, offset).view(), kind));
+    }
+    return signatures;
 }
 
 Query with_weight_sum(const Query& query, std::int64_t weight_sum) {

@@ -7,7 +7,8 @@
 //
 // Units   per cent of the canvas.
 // Errors  none at run time; a wrong shape is a caller's bug and asserts.
-// Source  sec. 4.6, "Affine transformation and partial queries".
+// Source  sec. 4.6, "Affine transformation and partial queries"; sec. 4.5, "slightly
+//         misregistered".
 #pragma once
 
 #include <span>
@@ -40,6 +41,12 @@ struct WindowSignature {
 // 192 x 192 samples of the picture.
 [[nodiscard]] std::vector<WindowSignature> window_signatures(const ImageView& picture,
                                                              const SignatureKind& kind);
+
+// A query that lies a little off what is looked for, as a scan does: moved by one fiftieth of
+// a side in eight directions, what is missing a repetition of the edge, and a twentieth
+// smaller and larger; not as it is. Requires: as for make_signature(). Cost: as above.
+[[nodiscard]] std::vector<Signature> moved_signatures(const ImageView& picture,
+                                                      const SignatureKind& kind);
 
 // The query with all its weights times weight_sum / query.weight_sum, rounded: placements
 // have different numbers of coefficients, and only so can distances under them be compared.

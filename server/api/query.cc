@@ -29,14 +29,18 @@ using Clock = std::chrono::steady_clock;
 Outcome<QueryPicture> picture_of(const Context& context,
                                  const QuerySource& source,
                                  const LookOptions& look) {
-    if (look.partial && (std::holds_alternative<ImageId>(source) ||
-                         std::holds_alternative<image::Signature>(source)))
+    const bool pixels = !std::holds_alternative<ImageId>(source) &&
+                        !std::holds_alternative<image::Signature>(source);
+    if ((look.partial || look.misregistered) && !pixels) {
+        const std::string name = look.partial ? "partial" : "misregistered";
         return http::Problem{400,
                              "invalid_argument",
-                             "partial=true needs the picture itself: an id and a "
-                             "signature have no pixels",
-                             "partial",
+                             name +
+                                 "=true needs the picture itself: an id and a "
+                                 "signature have no pixels",
+                             name,
                              {}};
+    }
     PictureReader& pictures = context.images.pictures();
     if (const auto* bytes = std::get_if<SourceBytes>(&source))
         return pictures.look(view_of(*bytes), look);

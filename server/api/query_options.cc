@@ -154,6 +154,7 @@ QueryOptions read_query_options(const Context& context, Inputs& inputs) {
     options.look.autocrop = inputs.boolean("autocrop").value_or(false);
     plan.content = options.look.autocrop;
     options.look.partial = inputs.boolean("partial").value_or(false);
+    options.look.misregistered = inputs.boolean("misregistered").value_or(false);
     options.search.filter = read_filter(inputs);
     options.explain = inputs.boolean("explain").value_or(false);
     options.seq = read_seq(inputs);

@@ -42,6 +42,16 @@ void add_whole(const ImageView& pixels,
     }
 }
 
+void add_moved(const ImageView& pixels,
+               const LookOptions& options,
+               QueryPicture& picture) {
+    for (const image::SignatureKind& kind : options.kinds) {
+        std::vector<image::Signature>& ways = picture.signatures[kind];
+        for (image::Signature& moved : image::moved_signatures(pixels, kind))
+            ways.push_back(std::move(moved));
+    }
+}
+
 // `pixels_across` of `pixels_of` stand for how many of `length`, at least one.
 int share_of(int length, int pixels_across, int pixels_of) {
     return static_cast<int>(std::max<std::int64_t>(
@@ -65,6 +75,7 @@ QueryPicture look_at_masked(const ImageView& pixels,
     } else {
         add_whole(seen, options, picture);
     }
+    if (options.misregistered) add_moved(seen, options, picture);
     return picture;
 }
 

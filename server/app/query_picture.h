@@ -23,13 +23,14 @@ enum class Mask {
 struct LookOptions {
     std::vector<image::SignatureKind> kinds = {{}};  // each once
     Mask mask = Mask::kAlpha;
-    bool autocrop = false;  // without near-uniform borders
-    bool partial = false;   // as a part of something larger (engine/image/window.h)
+    bool autocrop = false;       // without near-uniform borders
+    bool partial = false;        // as a part of something larger (engine/image/window.h)
+    bool misregistered = false;  // also a little moved and scaled (engine/image/window.h)
 };
 
 struct QueryPicture {
     // Of each kind one signature, or one for each window that the picture is placed at, the
-    // whole canvas first.
+    // whole canvas first, and one for each way that it may lie off.
     std::map<image::SignatureKind, std::vector<image::Signature>> signatures;
     std::optional<std::int32_t> log_aspect;  // unknown where only signatures are known
 };

@@ -61,9 +61,11 @@ Result<std::int64_t> FrameCollection::add(const VideoClip& clip) {
 }
 
 Result<FoundFrames> FrameCollection::best(const RgbPicture& picture,
-                                          const image::Profile& profile) {
+                                          const image::Profile& profile,
+                                          bool misregistered) {
     server::LookOptions look;
     look.kinds = {profile.kind};
+    look.misregistered = misregistered;
     const server::QueryPicture query =
         server::look_at(picture.view(), picture.width, picture.height, look);
     server::PlanOptions options;

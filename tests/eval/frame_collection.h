@@ -42,7 +42,8 @@ class FrameCollection {
 
     // kNotFound where there is no frame at all.
     [[nodiscard]] Result<FoundFrames> best(const RgbPicture& picture,
-                                           const image::Profile& profile);
+                                           const image::Profile& profile,
+                                           bool misregistered);
 
     // Of each frame of a video. Requires: a video that was added.
     [[nodiscard]] const std::vector<std::int64_t>& shots(std::int64_t video) const {

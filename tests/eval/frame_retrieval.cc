@@ -159,12 +159,14 @@ std::vector<RgbPicture> poor_copies(const std::vector<VideoClip>& clips,
 Result<FrameRetrievalRow> ask(const Arrangement& where,
                               const std::vector<Place>& places,
                               const std::vector<RgbPicture>& queries,
-                              const image::Profile& profile) {
+                              const image::Profile& profile,
+                              bool misregistered) {
     FrameRetrievalRow row;
     row.collection = where.name;
     row.profile = profile.name;
+    row.misregistered = misregistered;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto found = where.collection->best(queries[i], profile);
+        const auto found = where.collection->best(queries[i], profile, misregistered);
         if (!found) return found.error();
         ++row.queries;
         row.own_clip += where.in_clip(*found, places[i].clip) ? 1 : 0;
@@ -192,7 +194,7 @@ const FrameRetrievalRow& FrameRetrieval::row(const std::string& collection,
                                              const std::string& profile) const {
     const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) {
         return row.collection == collection && row.distortion == distortion &&
-               row.profile == profile;
+               row.profile == profile && !row.misregistered;
     });
     assert(found != rows.end());
     return *found;
@@ -228,10 +230,12 @@ Result<FrameRetrieval> measure_frames(
             poor_copies(clips, places, distortion(name), options.seed);
         for (const Arrangement* where : {&*apart, &*film}) {
             for (const image::Profile& profile : *profiles) {
-                auto row = ask(*where, places, queries, profile);
-                if (!row) return row.error();
-                row->distortion = name;
-                measured.rows.push_back(*std::move(row));
+                for (const bool misregistered : {false, true}) {
+                    auto row = ask(*where, places, queries, profile, misregistered);
+                    if (!row) return row.error();
+                    row->distortion = name;
+                    measured.rows.push_back(*std::move(row));
+                }
             }
         }
     }
@@ -263,12 +267,19 @@ std::string to_text(const FrameRetrieval& measured) {
                        std::to_string(measured.film_shots) + " shots, " +
                        std::to_string(measured.film_cuts) + " of " +
                        std::to_string(measured.clips - 1) + " cuts found\n\n";
-    TextTable table(
-        {"collection", "poor copy", "profile", "queries", "own shot", "own clip"}, 3);
+    TextTable table({"collection",
+                     "poor copy",
+                     "profile",
+                     "misregistered",
+                     "queries",
+                     "own shot",
+                     "own clip"},
+                    4);
     for (const FrameRetrievalRow& row : measured.rows) {
         table.add({row.collection,
                    row.distortion,
                    row.profile,
+                   row.misregistered ? "true" : "false",
                    std::to_string(row.queries),
                    std::to_string(row.own_shot),
                    std::to_string(row.own_clip)});
@@ -277,12 +288,18 @@ std::string to_text(const FrameRetrieval& measured) {
 }
 
 std::vector<OutputFile> frame_retrieval_files(const FrameRetrieval& measured) {
-    CsvTable table(
-        {"collection", "poor_copy", "profile", "queries", "own_shot", "own_clip"});
+    CsvTable table({"collection",
+                    "poor_copy",
+                    "profile",
+                    "misregistered",
+                    "queries",
+                    "own_shot",
+                    "own_clip"});
     for (const FrameRetrievalRow& row : measured.rows) {
         table.add({row.collection,
                    row.distortion,
                    row.profile,
+                   row.misregistered ? 1 : 0,
                    row.queries,
                    row.own_shot,
                    row.own_clip});

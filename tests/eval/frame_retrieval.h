@@ -2,9 +2,10 @@
 // lot from all clips, in as many ways of being poor as distortions.h knows.
 //   frame_collection.h, distortions.h -> [frame_retrieval.h]
 //
-// Two collections: every clip a video of its own, and all clips one after the other in a single
-// film, whose cuts are known. A query is made from the frame as it is in its file; what is
-// found first counts as its own shot if it is of the same video and shot.
+// Each is asked as it is, and with the option `misregistered`. Two collections: every clip a
+// video of its own, and all clips one after the other in a single film, whose cuts are known.
+// A query is made from the frame as it is in its file; what is found first counts as its own
+// shot if it is of the same video and shot.
 //
 // Errors  of the folder and of its clips, by name; a folder without any clip is kNotFound; an
 //         unknown profile is kInvalidArgument.
@@ -37,6 +38,7 @@ struct FrameRetrievalRow {
     std::string collection;  // "clips", "one film"
     std::string distortion;
     std::string profile;
+    bool misregistered = false;  // asked with that option
     int queries = 0;
     int own_shot = 0;  // found first
     int own_clip = 0;
@@ -53,7 +55,7 @@ struct FrameRetrieval {
     std::int64_t film_cuts = 0;   // of the film where a shot begins
     std::vector<FrameRetrievalRow> rows;
 
-    // Of each distortion, under each profile, in the collection named.
+    // Of a distortion, under a profile, in the collection named; asked without options.
     [[nodiscard]] const FrameRetrievalRow& row(const std::string& collection,
                                                const std::string& distortion,
                                                const std::string& profile) const;

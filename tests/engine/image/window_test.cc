@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -164,6 +165,53 @@ TEST(WithWeightSum, KeepsWeightsWithinTheirBound) {
     EXPECT_EQ(scaled.average_weight,
               (std::array<std::int32_t, 3>{kMaxWeight, kMaxWeight, 0}));
     EXPECT_EQ(scaled.weight_sum, kMaxWeight);
+}
+
+// The picture as it would be, by the place that each pixel comes from.
+template <typename From>
+Pixels rearranged(const Pixels& picture, const From& from) {
+    Pixels result = picture;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const auto [from_x, from_y] = from(x, y);
+            for (int c = 0; c < picture.channels; ++c) {
+                result.at(x, y, c) = picture.at(std::clamp(from_x, 0, picture.width - 1),
+                                                std::clamp(from_y, 0, picture.height - 1),
+                                                c);
+            }
+        }
+    }
+    return result;
+}
+
+TEST(MovedSignatures, AreThoseOfThePictureMovedInEveryDirection) {
+    const Pixels picture = scene(192, 192, 5);
+    const std::vector<Signature> moved = moved_signatures(picture.view(), {});
+    ASSERT_EQ(moved.size(), 10U);
+    for (const int down : {-4, 0, 4}) {
+        for (const int right : {-4, 0, 4}) {
+            if (right == 0 && down == 0) continue;
+            const Pixels other = rearranged(
+                picture, [&](int x, int y) { return std::pair(x - right, y - down); });
+            EXPECT_EQ(
+                std::count(moved.begin(), moved.end(), make_signature(other.view())), 1)
+                << right << ' ' << down;
+        }
+    }
+}
+
+TEST(MovedSignatures, AreThoseOfThePictureSmallerAndLarger) {
+    const Pixels picture = scene(192, 192, 6);
+    const std::vector<Signature> moved = moved_signatures(picture.view(), {});
+    for (const double scale : {0.95, 1.05}) {
+        const auto from = [&](int at) {
+            return static_cast<int>(std::floor((at + 0.5 - 96) / scale + 96));
+        };
+        const Pixels other = rearranged(
+            picture, [&](int x, int y) { return std::pair(from(x), from(y)); });
+        EXPECT_EQ(std::count(moved.begin(), moved.end(), make_signature(other.view())), 1)
+            << scale;
+    }
 }
 
 // What a search does with them: parts of pictures find their pictures.

@@ -63,7 +63,7 @@ TEST(FrameRetrieval, EveryPoorFrameOfClearShotsFindsItsOwn) {
     EXPECT_EQ(found.film_shots, 5);
     EXPECT_EQ(found.film_cuts, 2);
     EXPECT_GE(found.signatures, found.frames);
-    EXPECT_EQ(found.rows.size(), 4 * heard.size());
+    EXPECT_EQ(found.rows.size(), 8 * heard.size());
     for (const FrameRetrievalRow& row : found.rows) {
         EXPECT_EQ(row.queries, 12);
         EXPECT_EQ(row.own_shot, 12)

@@ -147,6 +147,24 @@ TEST_F(QueryChoicesTest, APartIsFoundAsAPart) {
     }
 }
 
+TEST_F(QueryChoicesTest, APictureThatLiesOffIsNearerWhenThatIsSaid) {
+    const image::Pixels picture = scene(5);
+    image::Pixels moved = picture;
+    const int right = picture.width / 48;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            for (int c = 0; c < picture.channels; ++c)
+                moved.at(x, y, c) = picture.at(std::max(x - right, 0), y, c);
+    const json plain = ask("", moved)["matches"][0];
+    const json found = ask("misregistered=true", moved)["matches"][0];
+    EXPECT_EQ(found["id"], 5);
+    EXPECT_LT(found["distance"], plain["distance"]);
+    EXPECT_EQ(ask("misregistered=true", picture)["matches"][0]["distance"], 0.0);
+    EXPECT_EQ(ask("misregistered=true&partial=true", picture)["matches"][0]["id"], 5);
+    EXPECT_EQ(refusal_of(interface_.get("/query?misregistered=true&id=1")),
+              (Refusal{400, "invalid_argument", "misregistered"}));
+}
+
 TEST_F(QueryChoicesTest, TheShapeIsATerm) {
     const json plain = ask("", image::scene(64, 96, 5))["matches"];
     const json shaped = ask("aspect_weight=2.5", image::scene(64, 96, 5))["matches"];
