@@ -57,7 +57,7 @@ void BrickEncoder::put(const Brick& brick, const BrickNeighbors& around) {
     neighbors.before = &before_;
     const Choice choice(brick, neighbors, rooms_);
     PackedRows rows;
-    const Left left = pack(brick, choice.predicted(), rows);
+    const Left left = pack_residuals(brick, choice.predicted(), rows);
     const bool alpha = !left.opaque && left.alpha;
     BrickMode mode;
     mode.reference = choice.reference();
@@ -110,11 +110,11 @@ Result<void> BrickDecoder::next(std::uint8_t symbol,
         if (!alpha) std::fill(residuals_.begin() + 3 * kBrickPixels, residuals_.end(), 0);
         rows_.next(alpha, residuals_);
     }
-    unpack(residuals_,
-           predicted,
-           mode.follows_green,
-           mode.alpha == AlphaMode::kOpaque,
-           brick);
+    add_residuals(residuals_,
+                  predicted,
+                  mode.follows_green,
+                  mode.alpha == AlphaMode::kOpaque,
+                  brick);
     before_ = brick;
     return {};
 }

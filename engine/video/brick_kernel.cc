@@ -35,7 +35,7 @@ std::uint32_t Deviation(const Brick& a, const Brick& b) {
     return sum;
 }
 
-void Move(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
+void Shift(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
     for (std::size_t i = 0; i < kBytes; ++i) {
         const int moved = BytesOf(base)[i] + BytesOf(to)[i] - BytesOf(from)[i];
         BytesOf(out)[i] = static_cast<std::uint8_t>(std::clamp(moved, 0, 255));
@@ -80,7 +80,7 @@ int ClassOf(std::uint8_t residual) {
                                    : 5;
 }
 
-Left Pack(const Brick& brick, const Brick& predicted, PackedRows& rows) {
+Left PackResiduals(const Brick& brick, const Brick& predicted, PackedRows& rows) {
     Residuals apart;
     Residuals following;
     int sum_apart = 0;
@@ -122,11 +122,11 @@ Left Pack(const Brick& brick, const Brick& predicted, PackedRows& rows) {
     return left;
 }
 
-void Unpack(const Residuals& residuals,
-            const Brick& predicted,
-            bool follows_green,
-            bool opaque,
-            Brick& brick) {
+void AddResiduals(const Residuals& residuals,
+                  const Brick& predicted,
+                  bool follows_green,
+                  bool opaque,
+                  Brick& brick) {
     for (int i = 0; i < kBrickPixels; ++i) {
         const int green = residuals[i];
         const int follow = follows_green ? green : 0;
@@ -171,7 +171,7 @@ std::uint32_t Deviation(const Brick& a, const Brick& b) {
     return Total(sums);
 }
 
-void Move(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
+void Shift(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
     for (std::size_t i = 0; i < kBytes; i += hn::Lanes(k8)) {
         const V8 start = hn::LoadU(k8, BytesOf(base) + i);
         const V8 plus = hn::LoadU(k8, BytesOf(to) + i);
@@ -304,7 +304,7 @@ HWY_INLINE V64 PackPlane(V8 residuals,
     return found;
 }
 
-Left Pack(const Brick& brick, const Brick& predicted, PackedRows& rows) {
+Left PackResiduals(const Brick& brick, const Brick& predicted, PackedRows& rows) {
     alignas(64) std::array<std::uint8_t, kBytes> apart;
     alignas(64) std::array<std::uint8_t, kBytes> following;
     V64 sum_apart = hn::Zero(k64);
@@ -353,11 +353,11 @@ Left Pack(const Brick& brick, const Brick& predicted, PackedRows& rows) {
     return left;
 }
 
-void Unpack(const Residuals& residuals,
-            const Brick& predicted,
-            bool follows_green,
-            bool opaque,
-            Brick& brick) {
+void AddResiduals(const Residuals& residuals,
+                  const Brick& predicted,
+                  bool follows_green,
+                  bool opaque,
+                  Brick& brick) {
     const V8 follow = hn::Set(k8, static_cast<std::uint8_t>(follows_green ? 255 : 0));
     const V8 filled = hn::BitCast(k8, hn::Set(k32, opaque ? 0xFF000000U : 0));
     alignas(64) std::array<std::uint8_t, kBytes> off;
@@ -393,10 +393,10 @@ namespace haarmony::video {
 namespace {
 
 HWY_EXPORT(Deviation);
-HWY_EXPORT(Move);
+HWY_EXPORT(Shift);
 HWY_EXPORT(Smooth);
-HWY_EXPORT(Pack);
-HWY_EXPORT(Unpack);
+HWY_EXPORT(PackResiduals);
+HWY_EXPORT(AddResiduals);
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -406,24 +406,25 @@ std::uint32_t deviation(const Brick& a, const Brick& b) {
     return HWY_DYNAMIC_DISPATCH(Deviation)(a, b);
 }
 
-void move(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
-    HWY_DYNAMIC_DISPATCH(Move)(base, to, from, out);
+void shift(const Brick& base, const Brick& to, const Brick& from, Brick& out) {
+    HWY_DYNAMIC_DISPATCH(Shift)(base, to, from, out);
 }
 
 void smooth(const Brick& coarse, int quadrant, Brick& out) {
     HWY_DYNAMIC_DISPATCH(Smooth)(coarse, quadrant, out);
 }
 
-Left pack(const Brick& brick, const Brick& predicted, PackedRows& rows) {
-    return HWY_DYNAMIC_DISPATCH(Pack)(brick, predicted, rows);
+Left pack_residuals(const Brick& brick, const Brick& predicted, PackedRows& rows) {
+    return HWY_DYNAMIC_DISPATCH(PackResiduals)(brick, predicted, rows);
 }
 
-void unpack(const Residuals& residuals,
-            const Brick& predicted,
-            bool follows_green,
-            bool opaque,
-            Brick& brick) {
-    HWY_DYNAMIC_DISPATCH(Unpack)(residuals, predicted, follows_green, opaque, brick);
+void add_residuals(const Residuals& residuals,
+                   const Brick& predicted,
+                   bool follows_green,
+                   bool opaque,
+                   Brick& brick) {
+    HWY_DYNAMIC_DISPATCH(AddResiduals)
+    (residuals, predicted, follows_green, opaque, brick);
 }
 
 }  // namespace haarmony::video

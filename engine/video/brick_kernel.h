@@ -34,13 +34,13 @@ using Residuals = std::array<std::uint8_t, kPlanes * kBrickPixels>;  // modulo 2
 [[nodiscard]] std::uint32_t deviation(const Brick& a, const Brick& b);
 
 // base + to - from, within 0 .. 255, channel by channel.
-void move(const Brick& base, const Brick& to, const Brick& from, Brick& out);
+void shift(const Brick& base, const Brick& to, const Brick& from, Brick& out);
 
 // A quadrant with twice the detail, guessed: each pixel is 3/4 the one it lies in and 1/4 the
 // nearest one beside it in the brick, across and then down.
 void smooth(const Brick& coarse, int quadrant, Brick& out);
 
-// What pack() found.
+// What pack_residuals() found.
 struct Left {
     bool follows_green = false;
     bool opaque = false;  // the brick
@@ -49,12 +49,14 @@ struct Left {
 };
 // brick - predicted, for red and blue less green's where that makes them smaller. Clear pixels
 // have no residuals of colour.
-[[nodiscard]] Left pack(const Brick& brick, const Brick& predicted, PackedRows& rows);
+[[nodiscard]] Left pack_residuals(const Brick& brick,
+                                  const Brick& predicted,
+                                  PackedRows& rows);
 // The brick again. `opaque`: every alpha is 255, whatever was predicted.
-void unpack(const Residuals& residuals,
-            const Brick& predicted,
-            bool follows_green,
-            bool opaque,
-            Brick& brick);
+void add_residuals(const Residuals& residuals,
+                   const Brick& predicted,
+                   bool follows_green,
+                   bool opaque,
+                   Brick& brick);
 
 }  // namespace haarmony::video

@@ -35,7 +35,7 @@ const Brick& predict(Reference reference,
         case Reference::kParent:
             return *neighbors.parent;
         case Reference::kMirror:
-            move(*neighbors.parent, *neighbors.parent, *neighbors.first, room.made);
+            shift(*neighbors.parent, *neighbors.parent, *neighbors.first, room.made);
             break;
         case Reference::kCoarse:
             smooth(*neighbors.coarse, neighbors.quadrant, room.made);
@@ -43,7 +43,7 @@ const Brick& predict(Reference reference,
         case Reference::kParentCoarse:
             smooth(*neighbors.coarse, neighbors.quadrant, room.enlarged);
             smooth(*neighbors.parent_coarse, neighbors.quadrant, room.parent_enlarged);
-            move(*neighbors.parent, room.enlarged, room.parent_enlarged, room.made);
+            shift(*neighbors.parent, room.enlarged, room.parent_enlarged, room.made);
             break;
         case Reference::kOtherEdge:
             return *neighbors.other_edge;

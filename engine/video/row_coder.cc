@@ -125,11 +125,17 @@ void RowWriter::put(const PackedRows& rows, bool alpha) {
 }
 
 void RowWriter::finish(std::vector<std::byte>& out) const {
-    const auto put = [&](const Bytes& bytes) {
-        put_stream(std::span(bytes.bytes).first(bytes.used), Redundancy::kFrequent, out);
-    };
-    for (const Bytes& bytes : rows_) put(bytes);
-    put(alpha_classes_);
+    // Many large residuals are edges that moved, and more of them are alike than of those that
+    // grain leaves. Such pictures are drawn, and have few bricks: there is time for a long look.
+    std::size_t all = 0;
+    for (std::size_t c = 1; c < kRowClasses; ++c) all += rows_[c].used;
+    const bool drawn = 8 * rows_.back().used > all;
+    const Redundancy redundancy = drawn ? Redundancy::kSearched : Redundancy::kFrequent;
+    for (const Bytes& bytes : rows_)
+        put_stream(std::span(bytes.bytes).first(bytes.used), redundancy, out);
+    put_stream(std::span(alpha_classes_.bytes).first(alpha_classes_.used),
+               Redundancy::kRepeated,
+               out);
 }
 
 Result<RowReader> RowReader::open(StreamReader& reader, std::uint64_t bricks) {

@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t kLeastFrame = 16;
 constexpr std::size_t kMostVarint = 10;
 
+// Its name in zstd.h is there for programs that link zstd statically only.
+constexpr ZSTD_cParameter kLiteralCompressionMode = ZSTD_c_experimentalParam5;
+
 struct Free {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
     void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
@@ -35,13 +38,15 @@ Error damaged(const std::string& what) { return {ErrorCode::kUndecodable, what};
 
 void set_up(ZSTD_CCtx* context, Redundancy redundancy) {
     ZSTD_CCtx_reset(context, ZSTD_reset_session_and_parameters);
-    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, 1);
-    if (redundancy == Redundancy::kRepeated) return;
-    // Steps over so much that it finds no repetition: bytes are only counted.
+    const int level = redundancy == Redundancy::kSearched ? 7 : 1;
+    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, level);
+    if (redundancy != Redundancy::kFrequent) return;
+    // Steps over so much that it finds no repetition: bytes are only counted (which is off by
+    // itself where zstd is to be that fast).
     ZSTD_CCtx_setParameter(context, ZSTD_c_strategy, ZSTD_fast);
     ZSTD_CCtx_setParameter(context, ZSTD_c_targetLength, 1 << 17);
     ZSTD_CCtx_setParameter(context, ZSTD_c_hashLog, 6);
-    ZSTD_CCtx_setParameter(context, ZSTD_c_experimentalParam5, 1);
+    ZSTD_CCtx_setParameter(context, kLiteralCompressionMode, 1);
 }
 
 }  // namespace
@@ -87,15 +92,16 @@ Result<Stream> StreamReader::next(std::uint64_t most) {
     const std::uint64_t coded = framed ? in_.varint() : size;
     if (in_.overrun() || coded > in_.rest().size()) return damaged("stream cut off");
     const std::span<const std::byte> bytes = in_.take(coded);
+    // One frame that says its size, and nothing behind it.
+    if (framed &&
+        (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != size ||
+         ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size())) {
+        return damaged("frame of a stream of " + std::to_string(size) + " bytes");
+    }
     Stream stream(size);
     if (!framed) {
         if (size > 0) std::memcpy(stream.data(), bytes.data(), size);
         return stream;
-    }
-    // One frame that says its size, and nothing behind it.
-    if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != size ||
-        ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) {
-        return damaged("frame of a stream of " + std::to_string(size) + " bytes");
     }
     const std::size_t done = ZSTD_decompressDCtx(
         decompressor(), stream.data(), stream.size(), bytes.data(), bytes.size());

@@ -23,6 +23,7 @@ using Stream = std::vector<std::uint8_t>;
 enum class Redundancy : std::uint8_t {
     kFrequent,  // some bytes are more frequent than others
     kRepeated,  // runs of bytes come again
+    kSearched,  // and looking for them may take long
 };
 
 void put_stream(std::span<const std::uint8_t> stream,

@@ -153,7 +153,7 @@ TEST(BrickCoder, ABrickThatIsShownAlreadyCostsNothing) {
         one.present = 0;
         EXPECT_FALSE(chosen(one).exact);
         EXPECT_LT(bytes, 60U) << reference;
-        EXPECT_GT(bytes_of(one), 50 * 64U) << reference;
+        EXPECT_GT(coded({one}).size(), 64U) << reference;
     }
 }
 
@@ -174,7 +174,6 @@ TEST(BrickCoder, AMeanAndOneHalfTellTheOther) {
 }
 
 TEST(BrickCoder, ASmoothBrickFollowsTheCoarseOne) {
-    std::mt19937 random(14);
     Case one{{}, {}, 0b100, 3};
     for (int i = 0; i < kBrickPixels; ++i) {
         const auto slope = [&](int x, int y) {
@@ -187,9 +186,6 @@ TEST(BrickCoder, ASmoothBrickFollowsTheCoarseOne) {
         one.around[2][i] = slope(2 * (i % 8), 2 * (i / 8));
     }
     EXPECT_EQ(chosen(one).reference, Reference::kCoarse);
-    Case alone = one;
-    alone.present = 0;
-    EXPECT_LT(3 * bytes_of(one), bytes_of(alone));
 }
 
 TEST(BrickCoder, WhatMovesTheCoarseBrickMovesTheTimeParent) {

@@ -56,7 +56,7 @@ TEST(BrickKernel, MovingStaysWithinBytes) {
             const Brick to = random_brick(random);
             const Brick from = random_brick(random);
             Brick moved;
-            move(base, to, from, moved);
+            shift(base, to, from, moved);
             for (std::size_t p = 0; p < kBrickPixels; ++p) {
                 for (const Channel channel : kChannels) {
                     const int want = base[p].*channel + to[p].*channel - from[p].*channel;
@@ -126,7 +126,7 @@ int class_of(int residual) {
 // Packs, and compares every row with the residuals from the definition.
 Left checked_pack(const Brick& brick, const Brick& predicted, const char* target) {
     PackedRows rows;
-    const Left left = pack(brick, predicted, rows);
+    const Left left = pack_residuals(brick, predicted, rows);
     Left want;
     want.follows_green = left.follows_green;
     want.opaque = true;
@@ -203,14 +203,14 @@ TEST(BrickKernel, WhatIsPackedIsWhatIsLeftAndUnpacksToTheBrick) {
             const Left left = checked_pack(brick, predicted, target);
             following += left.follows_green ? 1 : 0;
             PackedRows rows;
-            (void)pack(brick, predicted, rows);
+            (void)pack_residuals(brick, predicted, rows);
             Residuals residuals = residuals_of(rows);
             Brick back;
-            unpack(residuals, predicted, left.follows_green, false, back);
+            add_residuals(residuals, predicted, left.follows_green, false, back);
             ASSERT_EQ(back, brick) << target << ", " << i;
             if (!left.opaque) continue;
             std::fill(residuals.begin() + 3 * kBrickPixels, residuals.end(), 7);
-            unpack(residuals, predicted, left.follows_green, true, back);
+            add_residuals(residuals, predicted, left.follows_green, true, back);
             ASSERT_EQ(back, brick) << target << ", " << i;
         }
         EXPECT_GT(following, 20) << target;
@@ -227,7 +227,7 @@ TEST(BrickKernel, RowsAtTheEdgesOfTheirClasses) {
             Brick brick = predicted;
             brick[13].g = static_cast<std::uint8_t>(128 + off);
             PackedRows rows;
-            const Left left = pack(brick, predicted, rows);
+            const Left left = pack_residuals(brick, predicted, rows);
             EXPECT_EQ(rows.row_class[1], static_cast<std::uint64_t>(class_of(off)))
                 << target << ", " << off;
             EXPECT_EQ(left.colors, off != 0) << target;
@@ -246,7 +246,7 @@ TEST(BrickKernel, DamagedResidualsStillGiveCanonicalPixels) {
             residuals[3 * kBrickPixels + i] = static_cast<std::uint8_t>(-predicted[i].a);
         }
         Brick brick;
-        unpack(residuals, predicted, true, false, brick);
+        add_residuals(residuals, predicted, true, false, brick);
         for (std::size_t i = 0; i < kBrickPixels; ++i) {
             EXPECT_EQ(brick[i], canonical(brick[i])) << target;
             if (i % 3 == 0) {

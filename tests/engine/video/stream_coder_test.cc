@@ -43,7 +43,8 @@ TEST(StreamCoder, WhatIsWrittenIsRead) {
         for (const int bits : {0, 1, 4, 8})
             streams.push_back(skewed(count, bits, static_cast<std::uint32_t>(count)));
     }
-    for (const Redundancy redundancy : {Redundancy::kFrequent, Redundancy::kRepeated}) {
+    for (const Redundancy redundancy :
+         {Redundancy::kFrequent, Redundancy::kRepeated, Redundancy::kSearched}) {
         std::vector<std::byte> bytes;
         for (const Stream& stream : streams) put_stream(stream, redundancy, bytes);
         StreamReader reader(bytes);
@@ -85,7 +86,8 @@ TEST(StreamCoder, RunsThatComeAgainAreFoundWhereTheyAreLookedFor) {
     const Stream once = skewed(500, 8, 6);
     Stream stream;
     for (int i = 0; i < 40; ++i) stream.insert(stream.end(), once.begin(), once.end());
-    EXPECT_LT(coded(stream, Redundancy::kRepeated).size(), 2 * once.size());
+    for (const Redundancy redundancy : {Redundancy::kRepeated, Redundancy::kSearched})
+        EXPECT_LT(coded(stream, redundancy).size(), 2 * once.size());
     EXPECT_GT(coded(stream, Redundancy::kFrequent).size(), 10 * once.size());
 }
 
