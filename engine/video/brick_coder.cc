@@ -10,7 +10,7 @@ namespace haarmony::video {
 namespace {
 
 // What is no further off than this, over all channels of 64 pixels, is good enough.
-constexpr std::uint32_t kNear = 64;
+constexpr std::uint32_t kNear = 128;
 
 // In the order in which they are tried: the cheap ones first.
 constexpr std::array<Reference, BrickEncoder::kTried> kTried = {Reference::kMirror,
