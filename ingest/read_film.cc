@@ -30,9 +30,10 @@ std::string metadata_of(const std::string& film, const KeyFrame& frame) {
 }
 
 bool have_content(const std::vector<FilmRow>& rows, const std::string& film_hash) {
-    return !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](const FilmRow& row) {
-        return row.known.stamp.content_hash == key_frame_hash(film_hash, row.uri);
-    });
+    return !rows.empty() &&
+           std::all_of(rows.begin(), rows.end(), [&](const FilmRow& row) {
+               return row.known.stamp.content_hash == key_frame_hash(film_hash, row.uri);
+           });
 }
 
 DescribedFilm rows_of(std::vector<KeyFrame> frames,

@@ -16,7 +16,7 @@ constexpr std::size_t kGathered = std::size_t{1} << 20;
 }  // namespace
 
 Result<FileSpool> FileSpool::nameless(const std::string& folder) {
-    std::string path = folder + "/spool-XXXXXX";
+    std::string path = folder + '/' + std::string(kMoment) + "XXXXXX";
     FileDescriptor file(::mkostemp(path.data(), O_CLOEXEC));
     if (!file) return system_error(path, "made");
     if (::unlink(path.c_str()) != 0) return system_error(path, "removed");

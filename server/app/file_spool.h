@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -21,6 +22,10 @@ namespace haarmony::server {
 
 class FileSpool final : public video::Spool {
   public:
+    // How the names begin that nameless files have for a moment: one that is there longer was
+    // left by a process that died in that moment.
+    static constexpr std::string_view kMoment = "spool-";
+
     // A file without a name in `folder`.
     [[nodiscard]] static Result<FileSpool> nameless(const std::string& folder);
     // A file of that name, emptied where it is there already.

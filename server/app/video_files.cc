@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "server/app/file_spool.h"
 #include "server/app/log_value.h"
 
 namespace haarmony::server {
@@ -130,10 +131,11 @@ Result<std::int64_t> VideoFiles::sweep(
     for (fs::directory_iterator file(folder_, error), end; !error && file != end;
          file.increment(error)) {
         const std::string name = file->path().filename();
-        const bool orphan = name.ends_with(".mrv")        ? !clips.contains(name)
-                            : name.starts_with(kBuilding) ? true
-                            : is_input_name(name)         ? !wants(name)
-                                                          : false;
+        const bool orphan = name.ends_with(".mrv")                 ? !clips.contains(name)
+                            : name.starts_with(kBuilding)          ? true
+                            : name.starts_with(FileSpool::kMoment) ? true
+                            : is_input_name(name)                  ? !wants(name)
+                                                                   : false;
         if (!orphan) continue;
         remove_file(file->path());
         ++removed;

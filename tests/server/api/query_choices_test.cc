@@ -159,7 +159,9 @@ TEST_F(QueryChoicesTest, APictureThatLiesOffIsNearerWhenThatIsSaid) {
     const json found = ask("misregistered=true", moved)["matches"][0];
     EXPECT_EQ(found["id"], 5);
     EXPECT_LT(found["distance"], plain["distance"]);
-    EXPECT_EQ(ask("misregistered=true", picture)["matches"][0]["distance"], 0.0);
+    // As it is remains one of the ways.
+    EXPECT_EQ(ask("misregistered=true", picture)["matches"][0]["distance"],
+              ask("", picture)["matches"][0]["distance"]);
     EXPECT_EQ(ask("misregistered=true&partial=true", picture)["matches"][0]["id"], 5);
     EXPECT_EQ(refusal_of(interface_.get("/query?misregistered=true&id=1")),
               (Refusal{400, "invalid_argument", "misregistered"}));

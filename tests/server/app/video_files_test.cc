@@ -79,12 +79,13 @@ TEST_F(VideoFilesTest, ASweepRemovesWhatBelongsToNobodyAndNothingElse) {
     schema::write_bytes(files_.clip_path(1, "00000000deadbeee"), "another revision");
     schema::write_bytes(files_.clip_path(2, "00000000deadbeef"), "no row");
     schema::write_bytes(files_.building_path(3), "half");
+    schema::write_bytes(files_.folder() + "/spool-XuEHoP", "died as it was made");
     schema::write_bytes(files_.folder() + "/README", "somebody else's");
     const std::vector<schema::Video> rows{video(1, "00000000deadbeef")};
     const auto removed =
         files_.sweep(rows, [&](std::string_view name) { return name == wanted; });
     ASSERT_TRUE(removed) << removed.error().message;
-    EXPECT_EQ(*removed, 4);
+    EXPECT_EQ(*removed, 5);
     EXPECT_EQ(names(),
               (std::set<std::string>{"README", "1-00000000deadbeef.mrv", wanted}));
 }
