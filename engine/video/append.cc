@@ -1,6 +1,7 @@
 #include "engine/video/append.h"
 
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -73,10 +74,12 @@ Result<ClipShape> append(const TimeTree& clip,
                          const AppendOptions& options) {
     const ClipShape& old = clip.shape();
     if (clip.delta() != 0) {
+        std::ostringstream delta;
+        delta << double(clip.delta()) / kDifferenceOne;
         return Error{ErrorCode::kConflict,
-                     "the clip's frames are within " + std::to_string(clip.delta()) +
-                         " of their source (delta); only to a clip of delta 0 can frames "
-                         "be appended"};
+                     "the clip's delta is " + delta.str() +
+                         ", so that its frames are not those of its source; only to a "
+                         "clip of delta 0 can frames be appended"};
     }
     if (const Result<void> same = can_follow(more.format(), old.format()); !same)
         return same.error();

@@ -202,14 +202,14 @@ TEST(Append, AClipOfALossyBuildIsRefused) {
     MemorySpool spool;
     MemoryClip::Sink sink;
     BuildOptions options;
-    options.delta = 40;
+    options.delta = kDifferenceOne * 5 / 2;
     ASSERT_TRUE(build(source, spool, sink, options).has_value());
     const std::unique_ptr<MemoryClip> lossy = sink.take();
     RawSource more(raw);
     const Result<ClipShape> appended = append(*lossy, more, spool, sink);
     ASSERT_FALSE(appended.has_value());
     EXPECT_EQ(appended.error().code, ErrorCode::kConflict);
-    EXPECT_NE(appended.error().message.find("within 40"), std::string::npos);
+    EXPECT_NE(appended.error().message.find("delta is 2.5,"), std::string::npos);
 }
 
 TEST(Append, ProgressCountsOldFramesAndCanStopAtEveryStep) {
