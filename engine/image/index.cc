@@ -196,7 +196,9 @@ void Index::State::reset(std::vector<LiveSegment> segments, SegmentOrigin origin
 std::vector<LiveSegment> Index::State::due_parts() const {
     std::vector<LiveSegment> sound;
     std::vector<SegmentSize> sizes;
-    for (const LiveSegment& part : published()->collection().segments) {
+    // Another thread may publish the next state meanwhile: this one is held on to.
+    const std::shared_ptr<const PublishedCollection> now = published();
+    for (const LiveSegment& part : now->collection().segments) {
         if (damaged_.contains(part.segment)) continue;
         sound.push_back(part);
         sizes.push_back({part.segment->size(), part.live()});
