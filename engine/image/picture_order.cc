@@ -98,10 +98,11 @@ class KdTree {
                 {},
                 [&](const Picture& picture) { return picture.average[best_average]; });
         } else if (best_sign >= 0) {
-            const auto with = std::ranges::partition(
-                pictures,
-                [&](const Picture& picture) { return !picture.signs.test(best_sign); });
-            at = pictures.size() - with.size();
+            const auto with = std::partition(
+                pictures.begin(), pictures.end(), [&](const Picture& picture) {
+                    return !picture.signs.test(best_sign);
+                });
+            at = std::size_t(with - pictures.begin());
         } else {
             return;  // all alike, as far as the sample shows
         }
